@@ -283,10 +283,11 @@ std::string validation_text(const Validation& v) {
   add_row("evidence", v.verdict.evidence_line());
   if (v.verdict.inferred) lines += verdict_row("tightest", tightest_line(*v.verdict.inferred));
   lines += verdict_row("verdict", conclusion(v));
-  if (v.is_diagnosed && v.findings.empty()) lines += verdict_row("looks like", "no fault that is known");
+  const bool explained = !v.findings.empty() && !v.findings[0].partial;
+  if (v.is_diagnosed && !explained) lines += verdict_row("looks like", "no fault that is known");
   for (const oracle::Finding& f : v.findings)
-    lines += verdict_row(f.together ? "and" : "looks like", finding_line(f)) + verdict_row("", proof_line(f)) +
-             verdict_row("", "try: " + f.command);
+    lines += verdict_row(f.together ? "and" : f.partial ? "may be part" : "looks like", finding_line(f)) +
+             verdict_row("", proof_line(f)) + verdict_row("", "try: " + f.command);
   return lines;
 }
 

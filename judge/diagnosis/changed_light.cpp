@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "judge/diagnosis/least_squares.h"
 #include "judge/diagnosis/predicted_term.h"
+#include "scenes/pipeline/light_mesh.h"
 
 namespace trueshade::oracle {
 
@@ -13,25 +15,6 @@ constexpr size_t kMostLights = 1024;  ///< of a scene that are tried
 constexpr size_t kTerms = 8000;       ///< lights and pixels together, by which the lights are chosen
 constexpr double kScale = 8;          ///< steps beyond which a pixel may have another fault
 constexpr size_t kFitted = 2;         ///< lights that are fitted to all pixels
-
-/// A symmetric system of three equations.
-struct Normal {
-  std::array<std::array<double, 3>, 3> a{};
-  Triple3 b{};
-
-  /// Solved with so much added to the diagonal; nothing where it is singular.
-  std::optional<Triple3> solved(double damping) const {
-    std::array<Triple3, 3> m = a;
-    // A direction has a length to spare, along which nothing pulls: the trace keeps steps from growing there.
-    const double trace = a[0][0] + a[1][1] + a[2][2];
-    for (size_t k = 0; k < 3; ++k) m[k][k] += damping * a[k][k] + 1e-6 * trace;
-    const Triple3 yz = cross(m[1], m[2]), zx = cross(m[2], m[0]), xy = cross(m[0], m[1]);
-    const double determinant = inner(m[0], yz);
-    if (!(std::fabs(determinant) > 0)) return std::nullopt;
-    const Triple3 sum = plus(plus(times(yz, b[0]), times(zx, b[1])), times(xy, b[2]));
-    return times(sum, 1 / determinant);
-  }
-};
 
 class LightFit {
  public:
@@ -64,14 +47,20 @@ class LightFit {
   double size_of(size_t light) const;
   /// How far a channel is off, in steps, beyond what its store may be.
   double off(const Seen& seen, const Color& value, int channel) const;
-  Normal equations(size_t light, const Triple3& at, size_t most, double scale) const;
-  double error(size_t light, const Triple3& at, double scale) const;
-  Triple3 fitted(size_t light) const;
+  NormalEquations equations(size_t light, const Triple3& at, size_t most, double scale) const;
+  double error(size_t light, const Triple3& at, double scale, size_t most = ~size_t(0)) const;
+  Triple3 fitted(size_t light, const Triple3& from) const;
+  void look_about(size_t light, double scale, Triple3& at) const;
+  /// What a light adds, where it is drawn at all.
+  Triple3 term_of(const PredictedTerms& terms, const PlainSurface& surface, const Light& light) const {
+    const bool bounded = drawn_extent(light, supposed_.pass.pipeline.light_volumes) != LightExtent::unbounded;
+    return bounded && !terms.in_range(surface, light) ? Triple3{} : terms.term(surface, light);
+  }
   /// Whether the changed light adds anything to any pixel.
   bool shines(size_t light, const Triple3& at) const {
     const Light here = changed(light, at);
     return std::any_of(seen_.begin(), seen_.end(), [&](const Seen& s) {
-      return PredictedTerms(supposed_.pass, s.surface).term(s.surface, here) != Triple3{};
+      return term_of(PredictedTerms(supposed_.pass, s.surface), s.surface, here) != Triple3{};
     });
   }
   double cost(const FaultParameter& parameter) const {
@@ -87,9 +76,9 @@ class LightFit {
   const std::vector<SampledPixel>& pixels_;
   const std::vector<double>& off_;
   bool codes_ = false, last_ = false;
-  double room_ = 0;            ///< steps that a store may be off
+  double room_ = 0;           ///< steps that a store may be off
   double farthest_ = kScale;  ///< steps that any pixel is off
-  std::vector<Seen> seen_;  ///< those that are not as they should be first
+  std::vector<Seen> seen_;    ///< those that are not as they should be first
 };
 
 void LightFit::see_pixels() {
@@ -129,8 +118,8 @@ double LightFit::size_of(size_t light) const {
   return 1e-3 * std::max(1e-3, std::sqrt(std::min(nearest, 1e12)));
 }
 
-/// Pixels are sampled by whether they are off, so what a store rounds away is not spread evenly over them: it counts for
-/// little, and every pixel for as much as the others.
+/// Pixels are sampled by whether they are off, so what a store rounds away is not spread evenly over them: it counts
+/// for little, and every pixel for as much as the others.
 double LightFit::off(const Seen& seen, const Color& value, int channel) const {
   constexpr double kShare = 0.05;
   const auto k = size_t(channel);
@@ -139,7 +128,7 @@ double LightFit::off(const Seen& seen, const Color& value, int channel) const {
 }
 
 /// The normal equations of a step from `at`, each residual weighed by Cauchy's rule.
-Normal LightFit::equations(size_t light, const Triple3& at, size_t most, double scale) const {
+NormalEquations LightFit::equations(size_t light, const Triple3& at, size_t most, double scale) const {
   const double size = size_of(light);
   const Light here = changed(light, at);
   std::array<Light, 3> moved{here, here, here};
@@ -148,16 +137,17 @@ Normal LightFit::equations(size_t light, const Triple3& at, size_t most, double 
     v[i] += size;
     moved[i] = changed(light, v);
   }
-  Normal n;
+  NormalEquations n;
   const size_t stride = std::max<size_t>(1, seen_.size() / most);
   for (size_t at_pixel = 0; at_pixel < seen_.size(); at_pixel += stride) {
     const Seen& s = seen_[at_pixel];
     const PredictedTerms terms(supposed_.pass, s.surface);
-    const Triple3 right = terms.term(s.surface, supposed_.pass.lights[light]), now = terms.term(s.surface, here);
+    const Triple3 right = term_of(terms, s.surface, supposed_.pass.lights[light]),
+                  now = term_of(terms, s.surface, here);
     std::array<Color, 3> along{};
     bool any = right != Triple3{} || now != Triple3{};
     for (size_t i = 0; i < 3; ++i) {
-      const Triple3 term = terms.term(s.surface, moved[i]);
+      const Triple3 term = term_of(terms, s.surface, moved[i]);
       any = any || term != Triple3{};
       along[i] = shown(s, minus(term, right));
     }
@@ -181,13 +171,15 @@ Normal LightFit::equations(size_t light, const Triple3& at, size_t most, double 
 }
 
 /// Of all pixels, by Cauchy's rule.
-double LightFit::error(size_t light, const Triple3& at, double scale) const {
+double LightFit::error(size_t light, const Triple3& at, double scale, size_t most) const {
   const Light here = changed(light, at);
   double sum = 0;
-  for (const Seen& s : seen_) {
+  const size_t stride = std::max<size_t>(1, seen_.size() / most);
+  for (size_t at_pixel = 0; at_pixel < seen_.size(); at_pixel += stride) {
+    const Seen& s = seen_[at_pixel];
     const PredictedTerms terms(supposed_.pass, s.surface);
     const Color value =
-        shown(s, minus(terms.term(s.surface, here), terms.term(s.surface, supposed_.pass.lights[light])));
+        shown(s, minus(term_of(terms, s.surface, here), term_of(terms, s.surface, supposed_.pass.lights[light])));
     for (int k = 0; k < std::min(3, picture_.channels()); ++k) {
       const double residual = off(s, value, k);
       if (std::isfinite(residual)) sum += std::log1p(residual * residual / (scale * scale));
@@ -197,8 +189,8 @@ double LightFit::error(size_t light, const Triple3& at, double scale) const {
 }
 
 /// Steps of least squares, shortened for as long as they lead nowhere (Levenberg and Marquardt).
-Triple3 LightFit::fitted(size_t light) const {
-  Triple3 at = {fault_.start, fault_.start, fault_.start};
+Triple3 LightFit::fitted(size_t light, const Triple3& from) const {
+  Triple3 at = from;
   for (const double scale : {farthest_, kScale}) {  // what is far off counts for much at first, and then for little
     double least = error(light, at, scale), damping = 1e-3;
     for (int i = 0; i < 16 && damping < 1e6; ++i) {
@@ -214,8 +206,22 @@ Triple3 LightFit::fitted(size_t light) const {
       at = next, least = e, damping = std::max(1e-9, damping / 8);
       if (done) break;
     }
+    if (!fault_.from.empty()) look_about(light, scale, at);
   }
   return at;
+}
+
+/// Steps along each number, ever smaller: where a light ends without fading there is no slope.
+void LightFit::look_about(size_t light, double scale, Triple3& at) const {
+  double least = error(light, at, scale);
+  for (double step = 0.128; step > 5e-4; step /= 2)
+    for (size_t k = 0; k < size_t(fault_.numbers); ++k)
+      for (const double sign : {-1.0, 1.0}) {
+        Triple3 next = at;
+        next[k] *= 1 + sign * step;
+        const double e = error(light, next, scale);
+        if (e < least * (1 - 1e-9)) at = next, least = e;
+      }
 }
 
 /// The shortest numbers that explain as much.
@@ -232,24 +238,34 @@ FaultParameter LightFit::shortest(FaultParameter parameter) const {
 std::vector<FaultParameter> LightFit::best() const {
   const std::vector<Light>& lights = supposed_.pass.lights;
   const Triple3 start = {fault_.start, fault_.start, fault_.start};
+  const size_t most = std::max<size_t>(60, kTerms / std::max<size_t>(1, std::min(lights.size(), kMostLights)));
   std::vector<std::pair<double, size_t>> gains;  // by what one step of least squares is expected to gain
+  std::vector<Triple3> froms(lights.size(), start);
   for (size_t i = 0; i < std::min(lights.size(), kMostLights); ++i) {
     if (!fault_.of_light(lights[i])) continue;
-    const Normal n = equations(i, start, std::max<size_t>(60, kTerms / std::min(lights.size(), kMostLights)), farthest_);
+    if (!fault_.from.empty()) {  // or by what the best of some changes gains
+      const double right = error(i, start, kScale, most);
+      double least = HUGE_VAL;
+      for (const Triple3& from : fault_.from)
+        if (const double e = error(i, from, kScale, most); e < least) least = e, froms[i] = from;
+      if (least < right) gains.emplace_back(least - right, i);
+      continue;
+    }
+    const NormalEquations n = equations(i, start, most, farthest_);
     if (const std::optional<Triple3> step = n.solved(1e-3)) gains.emplace_back(-inner(*step, n.b), i);
   }
   std::sort(gains.begin(), gains.end());
   std::vector<FaultParameter> parameters;
   for (size_t i = 0; i < std::min(kFitted, gains.size()); ++i) {
-    const FaultParameter found(double(gains[i].second), fitted(gains[i].second));
+    const FaultParameter found(double(gains[i].second), fitted(gains[i].second, froms[gains[i].second]));
     const auto all = [&found](const auto& is) { return std::all_of(found.vector.begin(), found.vector.end(), is); };
     if (!all([](double v) { return std::isfinite(v); })) continue;
     // Of a colour these are faults of their own: a light that is missing, or drawn twice.
-    const bool colors = fault_.start == 1;
-    if (colors && (all([](double v) { return std::fabs(v) < 0.02; }) ||
-                   all([](double v) { return std::fabs(v - 2) < 0.02; })))
+    const bool colors = fault_.start == 1 && fault_.from.empty();
+    if (colors &&
+        (all([](double v) { return std::fabs(v) < 0.02; }) || all([](double v) { return std::fabs(v - 2) < 0.02; })))
       continue;
-    if (colors && !all([](double v) { return v >= 0; })) continue;
+    if (fault_.start == 1 && !all([](double v) { return v >= 0; })) continue;
     if (!shines(size_t(found.number), found.vector)) continue;  // it might as well be missing
     parameters.push_back(shortest(found));
   }

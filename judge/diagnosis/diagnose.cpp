@@ -1,21 +1,25 @@
 #include <algorithm>
+#include <iterator>
+#include <memory>
 
 #include "core/json_number.h"
 #include "core/json_string.h"
 #include "judge/diagnosis/supposed_faults.h"
 #include "judge/stages/aggregate.h"
+#include "scenes/pipeline/transparency.h"
 
 namespace trueshade::oracle {
 
 namespace {
 
-std::string listed_name(std::string_view name, bool has_parameter, bool has_vector = false) {
-  return std::string(name) + (has_vector ? "=N:X,Y,Z" : has_parameter ? "=N" : "");
+std::string listed_name(std::string_view name, const ParameterForm& form) {
+  return std::string(name) + (form.any() ? "=" + listed_parameter(form) : "");
 }
 
-std::string listed_text(std::string_view text) {
+std::string listed_text(std::string_view text, const ParameterForm& form) {
+  constexpr const char* kVectors[] = {"", "X", "(X, Y)", "(X, Y, Z)"};
   std::string listed(text);
-  for (const auto& [mark, word] : {std::pair("%s", "N"), std::pair("%v", "(X, Y, Z)")})
+  for (const auto& [mark, word] : {std::pair("%s", "N"), std::pair("%p", "P"), std::pair("%v", kVectors[form.vector])})
     if (const size_t at = listed.find(mark); at != std::string::npos) listed.replace(at, 2, word);
   return listed;
 }
@@ -44,6 +48,54 @@ std::vector<Finding> merged(std::vector<Finding> planes, std::vector<Finding> pi
   return findings;
 }
 
+struct Shown {
+  const Scene& scene;
+  const Pipeline& pipeline;
+  const Profile& profile;
+  const Capture& capture;
+  const StageVerdict& stage;
+};
+
+/// The picture beside what should be made of its own G-buffer: by the camera of what was drawn, or by planes before
+/// they were written wrongly, if it is nearer to that.
+std::unique_ptr<PictureCase> picture_of(const Shown& s, const PlaneFindings& planes) {
+  auto picture = std::make_unique<PictureCase>(s.scene, s.pipeline, s.profile, s.capture, s.stage);
+  const auto try_other = [&](std::unique_ptr<PictureCase> other) {
+    if (changed_pixels(*other) < changed_pixels(*picture)) picture = std::move(other);
+  };
+  if (planes.drawn != nullptr)
+    try_other(std::make_unique<PictureCase>(*planes.drawn, s.pipeline, s.profile, s.capture, s.stage));
+  if (planes.expected == nullptr) return picture;
+  auto healed = std::make_unique<PictureCase>(*picture);
+  healed->heal(planes.expected, planes.wrong);
+  try_other(std::move(healed));
+  return picture;
+}
+
+/// Before what is said of the others, if most that is wrong is under glass.
+void add_glass(std::vector<Finding> glass, std::vector<Finding>& findings) {
+  const bool first = !glass.empty() && (findings.empty() || glass[0].changed > findings[0].changed);
+  findings.insert(first ? findings.begin() : findings.end(), glass.begin(), glass.end());
+}
+
+/// A fault that leaves most of what is wrong unexplained is no explanation: it comes behind those that are. Of two
+/// faults at once their share together counts.
+std::vector<Finding> partial_last(std::vector<Finding> findings) {
+  constexpr double kExplanation = 0.5;
+  std::vector<Finding> partial, whole;
+  for (size_t from = 0; from < findings.size();) {
+    size_t end = from + 1;
+    while (end < findings.size() && findings[end].together) ++end;
+    const bool is_partial = findings[end - 1].explained < kExplanation;
+    for (; from < end; ++from) {
+      findings[from].partial = is_partial;
+      (is_partial ? partial : whole).push_back(std::move(findings[from]));
+    }
+  }
+  whole.insert(whole.end(), std::make_move_iterator(partial.begin()), std::make_move_iterator(partial.end()));
+  return whole;
+}
+
 }  // namespace
 
 std::vector<Finding> diagnose(const Scene& scene, const Pipeline& asked, const Profile& profile, const Capture& capture,
@@ -63,28 +115,32 @@ std::vector<Finding> diagnose(const Scene& scene, const Pipeline& asked, const P
       (!supposed.empty() || surfaces->count(PixelClass::violation) > 0))
     planes = plane_findings(scene, pipeline, profile, capture, *surfaces, only.planes);
   std::vector<Finding> findings;
-  if (lit != nullptr && (supposed.empty() ? is_suspicious(*lit) : !only.picture.empty())) {
-    PictureCase picture(scene, pipeline, profile, capture, *lit);
-    if (planes.expected != nullptr) {  // the picture may have been lit before a plane was written wrongly
-      PictureCase healed = picture;
-      healed.heal(planes.expected, planes.wrong);
-      if (changed_pixels(healed) < changed_pixels(picture)) picture.heal(planes.expected, planes.wrong);
-    }
-    findings = picture_findings(picture, only.picture);
+  const bool asks_lit = supposed.empty() || !only.picture.empty() || !only.glass.empty();
+  if (lit != nullptr && asks_lit && (!supposed.empty() || is_suspicious(*lit))) {
+    const Shown shown{scene, pipeline, profile, capture, *lit};
+    const std::unique_ptr<PictureCase> picture = picture_of(shown, planes);
+    if (supposed.empty() || !only.picture.empty()) findings = picture_findings(*picture, only.picture);
+    const bool glazed =
+        draws_transparent(scene, pipeline) && pipeline.transparency.mode == TransparencyMode::after_lights;
+    const StageVerdict* over = stage_of({"transparency"});
+    if (glazed && (supposed.empty() || !only.glass.empty()))
+      add_glass(glass_findings(scene, pipeline, profile, capture, over != nullptr ? *over : *lit, *picture, only.glass),
+                findings);
   }
-  return merged(std::move(planes.findings), std::move(findings), most);
+  return partial_last(merged(std::move(planes.findings), std::move(findings), most));
 }
 
 std::vector<KnownFault> known_faults() {
   std::vector<KnownFault> faults;
   for (const auto table : {picture_value_faults(), light_faults()})
     for (const PictureFault& f : table)
-      faults.push_back({listed_name(f.name, f.search != Search::none, f.search == Search::one_light), "picture",
-                        listed_text(f.text)});
-  for (const auto table : {plane_faults(), redraw_faults()})
+      faults.push_back({listed_name(f.name, f.form()), "picture", listed_text(f.text, f.form())});
+  for (const auto table : {plane_faults(), redraw_faults(), object_faults(), camera_faults(), material_faults()})
     for (const PlaneFault& f : table)
-      faults.push_back({listed_name(f.name, f.search != PlaneFault::Search::none),
-                        std::string(kPlaneNames[size_t(f.plane)]), listed_text(f.text)});
+      faults.push_back(
+          {listed_name(f.name, f.form()), std::string(kPlaneNames[size_t(f.plane)]), listed_text(f.text, f.form())});
+  for (const GlassFault& f : glass_faults())
+    faults.push_back({listed_name(f.name, f.form()), "picture", listed_text(f.text, f.form())});
   return faults;
 }
 
@@ -102,7 +158,8 @@ std::string findings_json(std::span<const Finding> findings) {
             ",\"right\":" + json_in_nine_digits(f.proof.right) +
             ",\"predicted\":" + json_in_nine_digits(f.proof.predicted) +
             ",\"by_both\":" + (f.proof.by_both ? "true" : "false") +
-            ",\"anything\":" + (f.proof.anything ? "true" : "false") + "},\"command\":" + json_string(f.command) + "}";
+            ",\"anything\":" + (f.proof.anything ? "true" : "false") +
+            "},\"partial\":" + (f.partial ? "true" : "false") + ",\"command\":" + json_string(f.command) + "}";
   }
   return json + "]";
 }

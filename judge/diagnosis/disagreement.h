@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "judge/diagnosis/fault_parameter.h"
+
 namespace trueshade::oracle {
 
 /// Beyond this many steps of what a plane stores a value is another one.
@@ -41,6 +43,20 @@ template <class Fault>
 std::string parameter_word(const Fault& fault, double value) {
   const std::string word = fault.says != nullptr ? fault.says(value) : parameter_text(value);
   return word.find(' ') == std::string::npos ? word : parameter_text(value);
+}
+
+/// A fault with its numbers: `light-range=1.01`, `light-moved=3:0.5,0,0`; and in a sentence.
+template <class Fault>
+std::string fault_name(const Fault& fault, const FaultParameter& parameter) {
+  const ParameterForm form = fault.form();
+  const std::string name(fault.name);
+  return form.any() ? name + "=" + parameter_name(form, parameter, parameter_word(fault, parameter.number)) : name;
+}
+template <class Fault>
+std::string fault_text(const Fault& fault, const FaultParameter& parameter) {
+  const double number = parameter.number;
+  return text_with(fault.text, fault.form(), parameter,
+                   fault.says != nullptr ? fault.says(number) : parameter_text(number));
 }
 
 }  // namespace trueshade::oracle

@@ -41,6 +41,7 @@ ExpectedPixel ExpectedPlanes::made(int x, int y_top) const {
   const PossibleSurface* surface = seen(size_t(y) * size_t(pipeline_.width) + size_t(x));
   for (PlaneValues* v : {&out.value, &out.low, &out.high}) v->depth = double(pipeline_.geometry.clear_depth);
   if (surface == nullptr) return out;
+  out.triangle = surface->triangle;
   const SurfaceValues values(projector_, *surface, x + 0.5, y + 0.5);
   const GBufferState& g = pipeline_.gbuffer;
   const auto put = [&](const Range& r, const auto& number) {

@@ -23,6 +23,7 @@ struct PlaneValues {
 /// The likeliest values, and both ends of what is legal.
 struct ExpectedPixel {
   PlaneValues value, low, high;
+  uint32_t triangle = 0;  ///< of the object's mesh
 };
 
 class ExpectedPlanes {

@@ -31,12 +31,14 @@ struct Finding {
   double contradicted = 0;  ///< of the pixels that were as predicted, the share that the fault predicts otherwise
   bool together = false;    ///< the second of two faults: `changed`, `explained` and `contradicted` are of both
   double alone = 0;         ///< the share that it explains without the other; `explained`, unless `together`
+  bool partial = false;     ///< less than half of what is wrong is explained: it may be part of it
   Proof proof;
   std::string command;  ///< that shows it: of who asked; diagnose() leaves it empty
 };
 
-/// What explains a capture that does not pass, at most `most` findings, the likeliest first; none where no known fault
-/// explains a third of what is wrong. Works on samples of some thousands of pixels, the same ones every time.
+/// What explains a capture that does not pass, at most `most` findings, the likeliest first, those behind that are but
+/// `partial`; none where no known fault explains a third of what is wrong. Works on samples of some thousands of
+/// pixels, the same ones every time.
 ///   stages: of validate_capture(), by the same pipeline and profile
 ///   supposed: names of faults; if there are any, these are tried and no others
 /// Error(usage) for a name that no fault has, or a parameter that the fault does not take.
@@ -51,7 +53,7 @@ struct KnownFault {
 std::vector<KnownFault> known_faults();
 
 /// Findings as JSON: an array of {name, plane, text, changed, explained, contradicted, together, alone, proof {x, y,
-/// plane, given, right, predicted, by_both, anything}, command}.
+/// plane, given, right, predicted, by_both, anything}, partial, command}.
 std::string findings_json(std::span<const Finding> findings);
 
 }  // namespace trueshade::oracle

@@ -2,6 +2,8 @@
 #include <cmath>
 
 #include "judge/diagnosis/picture_faults.h"
+#include "judge/diagnosis/predicted_store.h"
+#include "judge/diagnosis/triple.h"
 
 namespace trueshade::oracle {
 
@@ -85,6 +87,20 @@ void reverse_order(LightPass& p, double) { p.fault.reversed = !p.fault.reversed;
 void swap_colors(LightPass& p, double) { p.fault.swapped_colors = true; }
 void mirror_z(LightPass& p, double) { p.fault.mirrored_z = true; }
 void no_ambient(LightPass& p, double) { p.fault.no_ambient = true; }
+void scale_ambient(LightPass& p, double f) {
+  p.pipeline.light_model.global_ambient *= float(f);
+  for (Light& l : p.lights) {
+    l.ambient *= float(f);
+    if (l.type == LightType::ambient) l.color *= float(f);
+  }
+}
+void no_emission(LightPass& p, double) { p.pipeline.light_model.emission = false; }
+bool emits(const LightPass& p) { return p.pipeline.light_model.emission; }
+template <int K>
+void mirror(LightPass& p, double) {
+  for (Light& l : p.lights) l.position[K] = -l.position[K];
+}
+void no_range(LightPass& p, double) { p.fault.range = 1e6; }
 void drop_cones(LightPass& p, double) { p.fault.cone_dropped = true; }
 void newton_root(LightPass& p, double) { p.fault.root = F::Root::one_newton_step; }
 void short_root(LightPass& p, double) { p.fault.root = F::Root::twelve_bits; }
@@ -95,7 +111,29 @@ void round_up(LightPass& p, double) { p.fault.store = F::Store::upward; }
 void codes_per_light(LightPass& p, double) {
   p.pipeline.strategy = blends_lights(p.pipeline.strategy) ? Strategy::deferred_loop : Strategy::deferred_volumes;
 }
+void scale_near(LightPass& p, double f) { p.fault.near *= f; }
+void scale_far(LightPass& p, double f) { p.fault.far *= f; }
+bool rebuilds_positions(const LightPass& p) {
+  return p.pipeline.gbuffer.position_from_depth && !p.camera.clip_from_world;
+}
 void nothing(LightPass&, double) {}
+void scale_cones(LightPass& p, double f) {
+  for (Light& l : p.lights) l.cone_rad *= float(f), l.penumbra_rad *= float(f);
+}
+void turn_directions(LightPass& p, double) {
+  for (Light& l : p.lights) l.direction = -l.direction;
+}
+void positions_as_halves(LightPass& p, double) {
+  for (Light& l : p.lights)
+    for (int k = 0; k < 3; ++k)
+      l.position[k] = float(rounded_to(double(l.position[k]), 10, -14, LightFault::Store::nearest));
+}
+void positions_in_view(LightPass& p, double) {
+  for (Light& l : p.lights) {
+    const Triple3 d = minus(triple(l.position), triple(p.camera.eye));
+    for (size_t k = 0; k < 3; ++k) l.position[int(k)] = float(inner(p.view[k], d));
+  }
+}
 
 using Vector = std::array<double, 3>;
 glm::vec3 vec3_of(const Vector& v) { return {float(v[0]), float(v[1]), float(v[2])}; }
@@ -107,6 +145,13 @@ void turn_light(Light& l, const Vector& v) {
 }
 void color_light(Light& l, const Vector& v) { l.color *= vec3_of(v); }
 bool has_direction(const Light& l) { return l.type == LightType::directional || l.type == LightType::spot; }
+/// Numbers of the light, times those of the vector.
+void scale_reach(Light& l, const Vector& v) { l.range *= float(v[0]); }
+void scale_cone(Light& l, const Vector& v) { l.cone_rad *= float(v[0]), l.penumbra_rad *= float(v[1]); }
+void scale_exponent(Light& l, const Vector& v) { l.spot_exponent *= float(v[0]); }
+void scale_falloff(Light& l, const Vector& v) { l.attenuation *= glm::vec3(1.0f, float(v[0]), float(v[1])); }
+bool reaches(const Light& l) { return lamp(l) && std::isfinite(l.range); }
+bool spot(const Light& l) { return l.type == LightType::spot; }
 bool any_light(const Light&) { return true; }
 bool has_directions(const LightPass& p) { return std::any_of(p.lights.begin(), p.lights.end(), has_direction); }
 
@@ -125,6 +170,7 @@ bool lists_tiles(const LightPass& p) { return several(p) && has_range(p) && !is_
 
 constexpr double kFactors[] = {0.5, 0.9, 0.99, 1.01, 1.1, 2};
 constexpr double kSpecularFactors[] = {0.25, 0.5, 2, 4};
+constexpr double kPlaneFactors[] = {0.1, 0.2, 0.5, 0.8, 1.25, 2, 5, 10};
 constexpr double kExponents[] = {0.25, 0.5, 0.97, 1.03, 2, 4};
 constexpr double kFalloffs[] = {0, 1, 2, 3, 4, 5};
 constexpr double kNormalCodes[] = {255, 1023};
@@ -160,7 +206,14 @@ constexpr PictureFault stale_tiles(int side, std::string_view name, std::string_
   return {.name = name, .text = text, .light = nothing, .stale = side};
 }
 
-constexpr double kVectorCost = 0.012;  ///< what three numbers more than one must earn
+// What a light's numbers may be times, to begin with.
+constexpr Vector kReaches[] = {{0.5, 1, 1}, {0.75, 1, 1}, {0.9, 1, 1}, {1.1, 1, 1}, {1.3, 1, 1}, {2, 1, 1}};
+constexpr Vector kCones[] = {{0.5, 1, 1}, {0.75, 1, 1}, {0.9, 0.9, 1}, {1.1, 1.1, 1}, {1.25, 1, 1}, {2, 1, 1},
+                             {8, 1, 1},   {1, 0.5, 1},  {1, 2, 1},     {0.5, 0.5, 1}, {2, 2, 1}};
+constexpr Vector kExponents1[] = {{0.5, 1, 1}, {2, 1, 1}, {4, 1, 1}};
+constexpr Vector kFalloffs1[] = {{0.5, 0.5, 1}, {2, 2, 1}, {0.5, 1, 1}, {2, 1, 1}, {1, 0.5, 1}, {1, 2, 1}};
+
+constexpr double kNumberCost = 0.004, kVectorCost = 3 * kNumberCost;  ///< what numbers more than one must earn
 
 // name, text, light, value, can, search, starts, move, doubt, reach
 constexpr PictureFault kFaults[] = {
@@ -205,6 +258,12 @@ constexpr PictureFault kFaults[] = {
     {"diffuse-two-sided", "N.L counts by its magnitude", two_sided},
     {"diffuse-half-lambert", "N.L is replaced by (N.L / 2 + 1/2)^2", half_lambert},
     {"diffuse-missing", "N.L is missing", no_cosine},
+    {"ambient-factor", "the ambient light is %s times as bright as it should be", scale_ambient, nullptr, has_ambient,
+     kSmooth, kFactors},
+    {"emission-missing", "surfaces do not emit", no_emission, nullptr, emits},
+    {"light-mirrored-x", "the lights' x has the wrong sign", mirror<0>, nullptr, has_lamps},
+    {"light-mirrored-y", "the lights' y has the wrong sign", mirror<1>, nullptr, has_lamps},
+    {"light-range-missing", "the lights have no range", no_range, nullptr, has_range},
     {"ambient-missing", "there is no ambient light", no_ambient, nullptr, has_ambient},
     {"light-missing", "light %s is missing", leave_out, nullptr, nullptr, Search::missing_light},
     {"light-twice", "light %s is drawn twice", draw_twice, nullptr, nullptr, Search::doubled_light},
@@ -233,6 +292,56 @@ constexpr PictureFault kFaults[] = {
      .one_light = color_light,
      .of_light = any_light,
      .start = 1},
+    {.name = "light-reach",
+     .text = "the range of light %s is %v times what it should be",
+     .can = has_range,
+     .search = Search::one_light,
+     .doubt = kNumberCost,
+     .one_light = scale_reach,
+     .of_light = reaches,
+     .start = 1,
+     .numbers = 1,
+     .from = kReaches},
+    {.name = "light-cone",
+     .text = "the cone and the penumbra of light %s are %v times as wide as they should be",
+     .can = has_cones,
+     .search = Search::one_light,
+     .doubt = 2 * kNumberCost,
+     .one_light = scale_cone,
+     .of_light = spot,
+     .start = 1,
+     .numbers = 2,
+     .from = kCones},
+    {.name = "light-exponent",
+     .text = "the exponent of the cone of light %s is %v times what it should be",
+     .can = has_cones,
+     .search = Search::one_light,
+     .doubt = kNumberCost,
+     .one_light = scale_exponent,
+     .of_light = spot,
+     .start = 1,
+     .numbers = 1,
+     .from = kExponents1},
+    {.name = "light-falloff",
+     .text = "the linear and the quadratic attenuation of light %s are %v times what they should be",
+     .can = has_attenuation,
+     .search = Search::one_light,
+     .doubt = 2 * kNumberCost,
+     .one_light = scale_falloff,
+     .of_light = lamp,
+     .start = 1,
+     .numbers = 2,
+     .from = kFalloffs1},
+    {"lighting-near", "positions are rebuilt from depths with a near plane %s times as far as it is", scale_near,
+     nullptr, rebuilds_positions, kSmooth, kPlaneFactors},
+    {"lighting-far", "positions are rebuilt from depths with a far plane %s times as far as it is", scale_far, nullptr,
+     rebuilds_positions, kSmooth, kPlaneFactors},
+    {"light-cones", "all cones are %s times as wide as they should be", scale_cones, nullptr, has_cones, kSmooth,
+     kSpecularFactors},
+    {"light-directions-turned", "the lights' directions have the wrong sign", turn_directions, nullptr, has_directions},
+    {"light-positions-half", "the lights' positions are rounded to half floats", positions_as_halves, nullptr,
+     has_lamps},
+    {"light-positions-view", "the lights' positions are in view space", positions_in_view, nullptr, has_lamps},
     {.name = "light-order",
      .text = "the lights are drawn in the opposite order",
      .light = reverse_order,

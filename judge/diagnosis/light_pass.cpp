@@ -4,6 +4,7 @@
 
 #include "judge/diagnosis/predicted_store.h"
 #include "judge/diagnosis/predicted_term.h"
+#include "judge/diagnosis/reread_depth.h"
 #include "judge/diagnosis/view_axes.h"
 #include "oracle/matrices.h"
 #include "scenes/pipeline/light_mesh.h"
@@ -11,6 +12,16 @@
 namespace trueshade::oracle {
 
 namespace {
+
+/// The surface where the pass takes it to be.
+PlainSurface taken(const LightPass& pass, PlainSurface surface) {
+  const LightFault& f = pass.fault;
+  if ((f.near == 1 && f.far == 1) || !surface.covered) return surface;
+  const Camera& c = pass.camera;
+  const DepthPlanes made{double(c.near), double(c.far)}, read{made.near * f.near, made.far * f.far};
+  surface.position = reread(triple(c.eye), pass.view[2], surface.position, made, read);
+  return surface;
+}
 
 /// What the sum starts from.
 Triple3 start_of(const LightPass& pass, const PlainSurface& surface) {
@@ -69,8 +80,9 @@ LightPass light_pass_of(const Scene& scene, const Pipeline& pipeline) {
   return pass;
 }
 
-PredictedPixel predicted_pixel(const LightPass& pass, const PlainSurface& surface, const std::vector<uint8_t>* listed,
+PredictedPixel predicted_pixel(const LightPass& pass, const PlainSurface& given, const std::vector<uint8_t>* listed,
                                std::vector<TracedLight>* trace) {
+  const PlainSurface surface = taken(pass, given);
   const PredictedStore texels(pass.pipeline, pass.fault.store), cleared(pass.pipeline, LightFault::Store::right);
   PredictedPixel out;
   if (!surface.covered) {
@@ -139,7 +151,8 @@ PredictedPixel predicted_pixel(const LightPass& pass, const PlainSurface& surfac
   return out;
 }
 
-std::vector<LightAdded> lights_added(const LightPass& pass, const PlainSurface& surface) {
+std::vector<LightAdded> lights_added(const LightPass& pass, const PlainSurface& given) {
+  const PlainSurface surface = taken(pass, given);
   const PredictedTerms maker(pass, surface);
   const bool last = pass.pipeline.light_model.order == TermOrder::albedo_last;
   std::vector<LightAdded> added;

@@ -42,6 +42,7 @@ struct LightFault {
   uint32_t most_at_pixel = std::numeric_limits<uint32_t>::max();              ///< of those in range of a pixel
   bool reversed = false, normal_turned = false, swapped_colors = false, mirrored_z = false;
   bool no_ambient = false, cone_dropped = false;
+  double near = 1, far = 1;     ///< factors of the planes that positions are rebuilt from depths with
   bool normal_in_view = false;  ///< rotated by the camera, and then read as if in the world
 };
 

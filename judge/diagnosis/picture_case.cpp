@@ -106,6 +106,12 @@ void PictureCase::draw_sample(const StageVerdict& stage, const Profile& profile,
   std::array<size_t, 4> few = kFew;
   for (size_t& f : few) f = f / share + 8;
   few_ = sampled_pixels(stage, few, uses);
+  // Where the nominal value was stored and another is predicted, the prediction is what is wrong.
+  const auto is_mistaken = [&](const SampledPixel& p) {
+    const PixelClass c = stage.classes[size_t(p.y) * size_t(stage.width) + size_t(p.x)];
+    return c == PixelClass::exact && steps_off(right(), p) >= kSameSteps;
+  };
+  std::erase_if(sample_, is_mistaken), std::erase_if(few_, is_mistaken);
 }
 
 PlainSurface PictureCase::surface(int x, int y) const {

@@ -62,6 +62,24 @@ void invert(Color& c, double, int, int) {
   each_of_rgb(c, [](double v) { return 1 - v; });
 }
 void set_alpha(Color& c, double alpha, int, int) { c[3] = alpha; }
+void encode_alpha(Color& c, double, int, int) { c[3] = encoded(c[3]); }
+void decode_alpha(Color& c, double, int, int) { c[3] = decoded(c[3]); }
+/// One channel alone.
+template <size_t K>
+void expose_one(Color& c, double f, int, int) {
+  c[K] *= f;
+}
+template <size_t K>
+void leave_one_out(Color& c, double, int, int) {
+  c[K] = 0;
+}
+double grey_of(const Color& c) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; }
+void saturate(Color& c, double f, int, int) {
+  each_of_rgb(c, [f, grey = grey_of(c)](double v) { return grey + f * (v - grey); });
+}
+void make_grey(Color& c, double, int, int) {
+  each_of_rgb(c, [grey = grey_of(c)](double) { return grey; });
+}
 void nothing(Color&, double, int, int) {}
 
 void flip_y(Move& m, double) { m.flip_y = !m.flip_y; }
@@ -79,6 +97,9 @@ bool of_codes(const LightPass& p) { return !of_floats(p); }
 bool shows_dither(const LightPass& p) {
   return of_codes(p) && !info(p.pipeline.target).srgb && !blends_lights(p.pipeline.strategy);
 }
+
+/// Whether alpha can be anything but 1.
+bool has_alpha(const LightPass& p) { return p.pipeline.light_model.alpha_from_albedo; }
 
 constexpr auto kNone = Search::none;
 constexpr auto kOneOf = Search::one_of;
@@ -107,10 +128,22 @@ constexpr PictureFault kFaults[] = {
      decode},
     {"picture-gamma", "the picture is raised to the power of %s", nullptr, power, nullptr, Search::smooth, kGammas,
      nullptr, 0.01},
-    {"picture-premultiplied", "the picture's colours are multiplied by its alpha", nullptr, premultiply},
-    {"picture-unpremultiplied", "the picture's colours are divided by its alpha", nullptr, unpremultiply},
+    {"picture-premultiplied", "the picture's colours are multiplied by its alpha", nullptr, premultiply, has_alpha},
+    {"picture-unpremultiplied", "the picture's colours are divided by its alpha", nullptr, unpremultiply, has_alpha},
     {"picture-exposure", "the picture is %s times as bright as it should be", nullptr, expose, nullptr, Search::smooth,
      kFactors},
+    {"picture-red-gain", "the picture's red is %s times as bright as it should be", nullptr, expose_one<0>, nullptr,
+     Search::smooth, kFactors, nullptr, 0.01},
+    {"picture-green-gain", "the picture's green is %s times as bright as it should be", nullptr, expose_one<1>, nullptr,
+     Search::smooth, kFactors, nullptr, 0.01},
+    {"picture-blue-gain", "the picture's blue is %s times as bright as it should be", nullptr, expose_one<2>, nullptr,
+     Search::smooth, kFactors, nullptr, 0.01},
+    {"picture-red-missing", "the picture has no red", nullptr, leave_one_out<0>},
+    {"picture-green-missing", "the picture has no green", nullptr, leave_one_out<1>},
+    {"picture-blue-missing", "the picture has no blue", nullptr, leave_one_out<2>},
+    {"picture-grey", "the picture is grey", nullptr, make_grey},
+    {"picture-saturation", "the picture's colours are %s times as far from grey as they should be", nullptr, saturate,
+     nullptr, Search::smooth, kFactors, nullptr, 0.01},
     {"picture-tone-mapped", "the picture is tone-mapped by x / (1 + x)", nullptr, map_tones},
     {"picture-clamped", "the picture is clamped to [0, 1]", nullptr, clamp_to_one, of_floats},
     {"picture-inverted", "the picture shows 1 - x", nullptr, invert},
@@ -118,6 +151,9 @@ constexpr PictureFault kFaults[] = {
     {"picture-offset", "a constant of %s / 255 is added to the picture", nullptr, raise, nullptr, kOneOf, kCodes,
      nullptr, 0.01},
     {"picture-alpha", "the picture's alpha is %s everywhere", nullptr, set_alpha, nullptr, kOneOf, kAlphas},
+    {"picture-alpha-srgb-encoded", "the picture's alpha is sRGB-encoded", nullptr, encode_alpha, has_alpha},
+    {"picture-alpha-srgb-decoded", "the picture's alpha is decoded as if it were sRGB", nullptr, decode_alpha,
+     has_alpha},
     {"picture-dithered",
      "the picture is dithered: each code is one of the two beside the value",
      nullptr,

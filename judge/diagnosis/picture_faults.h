@@ -5,19 +5,12 @@
 #include <string>
 #include <string_view>
 
+#include "judge/diagnosis/fault_parameter.h"
 #include "judge/diagnosis/light_pass.h"
 
 namespace trueshade::oracle {
 
 using Color = std::array<double, 4>;
-
-/// The numbers of a fault: one, or that of a light and three that are the fault's own.
-struct FaultParameter {
-  double number = 0;
-  std::array<double, 3> vector{};
-  FaultParameter(double n = 0) : number(n) {}  // most faults have one number
-  FaultParameter(double light, const std::array<double, 3>& v) : number(light), vector(v) {}
-};
 
 /// Where the pixel that is shown came from.
 struct Move {
@@ -27,14 +20,14 @@ struct Move {
 
 /// How a fault's parameter is found.
 enum class Search : uint8_t {
-  none,           ///< it has none
-  one_of,         ///< the best of `starts`
-  smooth,         ///< from the best of `starts` by least squares
-  missing_light,  ///< the light without which most pixels are as given
-  doubled_light,  ///< the same of one that is drawn twice
-  count,          ///< of lights, by sums of the first so many
-  count_at_pixel, ///< of lights that reach a pixel, the same
-  one_light       ///< a light and what is changed of it, by least squares
+  none,            ///< it has none
+  one_of,          ///< the best of `starts`
+  smooth,          ///< from the best of `starts` by least squares
+  missing_light,   ///< the light without which most pixels are as given
+  doubled_light,   ///< the same of one that is drawn twice
+  count,           ///< of lights, by sums of the first so many
+  count_at_pixel,  ///< of lights that reach a pixel, the same
+  one_light        ///< a light and what is changed of it, by least squares
 };
 
 struct PictureFault {
@@ -52,8 +45,15 @@ struct PictureFault {
   int stale = 0;                          ///< pixels a side of tiles, a few of which hold something else
   /// Of Search::one_light: changes the light by the vector; `start` is the vector that changes nothing.
   void (*one_light)(Light&, const std::array<double, 3>& vector) = nullptr;
-  bool (*of_light)(const Light&) = nullptr;  ///< whether it can be of that light
-  double start = 0;                          ///< of each component
+  bool (*of_light)(const Light&) = nullptr;       ///< whether it can be of that light
+  double start = 0;                               ///< of each component
+  int numbers = 3;                                ///< components that the fault has
+  std::span<const std::array<double, 3>> from{};  ///< other vectors to start from
+
+  ParameterForm form() const {
+    if (search == Search::none) return {};
+    return {true, false, search == Search::one_light ? numbers : 0};
+  }
 };
 
 std::span<const PictureFault> picture_value_faults();  ///< picture_faults.cpp

@@ -246,29 +246,8 @@ std::vector<Finding> PictureSearch::look() const {
 
 }  // namespace
 
-namespace {
-
-std::string vector_text(const std::array<double, 3>& v, const char* between) {
-  return parameter_text(v[0]) + between + parameter_text(v[1]) + between + parameter_text(v[2]);
-}
-
-}  // namespace
-
-std::string name_of(const PictureFault& fault, const FaultParameter& parameter) {
-  if (fault.search == Search::none) return std::string(fault.name);
-  const std::string name = std::string(fault.name) + "=" + parameter_word(fault, parameter.number);
-  return fault.search == Search::one_light ? name + ":" + vector_text(parameter.vector, ",") : name;
-}
-
-std::string text_of(const PictureFault& fault, const FaultParameter& parameter) {
-  std::string text(fault.text);
-  const auto put = [&text](const char* mark, const std::string& word) {
-    if (const size_t at = text.find(mark); at != std::string::npos) text.replace(at, 2, word);
-  };
-  put("%s", fault.says != nullptr ? fault.says(parameter.number) : parameter_text(parameter.number));
-  put("%v", "(" + vector_text(parameter.vector, ", ") + ")");
-  return text;
-}
+std::string name_of(const PictureFault& fault, const FaultParameter& parameter) { return fault_name(fault, parameter); }
+std::string text_of(const PictureFault& fault, const FaultParameter& parameter) { return fault_text(fault, parameter); }
 
 double changed_pixels(const PictureCase& picture) {
   double changed = 0;

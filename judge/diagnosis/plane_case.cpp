@@ -59,14 +59,24 @@ int PlaneCase::planes() const {
   return int(std::count_if(views_.begin(), views_.end(), [](const PlaneView& v) { return bool(v); }));
 }
 
+namespace {
+
+/// False: there is nothing that the fault changes.
+bool redrawn(Scene& scene, Pipeline& pipeline, const NamedPlaneFault& f) {
+  return f.fault->edit != nullptr ? f.fault->edit(scene, pipeline, f.parameter)
+                                  : f.fault->redraw(scene, pipeline, f.parameter.number);
+}
+
+}  // namespace
+
 std::optional<PlaneSupposition> PlaneCase::with(const PlaneSupposition& base, const NamedPlaneFault& fault) const {
   PlaneSupposition s = base;
   s.faults.push_back(fault);
-  if (fault.fault->redraw == nullptr) return s;
+  if (!fault.fault->redraws()) return s;
   const auto scene = std::make_shared<Scene>(scene_);
   Pipeline pipeline = pipeline_;
   for (const NamedPlaneFault& f : s.faults)
-    if (f.fault->redraw != nullptr && !f.fault->redraw(*scene, pipeline, f.parameter)) return std::nullopt;
+    if (f.fault->redraws() && !redrawn(*scene, pipeline, f)) return std::nullopt;
   s.scene = scene;
   s.drawn = std::make_shared<ExpectedPlanes>(*scene, pipeline, profile_, drawn_at_);
   return s;
@@ -77,7 +87,7 @@ ExpectedPixel PlaneCase::changed(const PlaneSupposition& supposed, Plane plane, 
   PlaneMove move;
   for (const NamedPlaneFault& f : supposed.faults)
     if (f.fault->move != nullptr && (f.fault->plane == plane || f.fault->plane == Plane::all))
-      f.fault->move(move, f.parameter);
+      f.fault->move(move, f.parameter.number);
   x = std::clamp(x - move.x, 0, pipeline_.width - 1), y = std::clamp(y - move.y, 0, pipeline_.height - 1);
   ExpectedPixel p =
       supposed.drawn->at(move.flip_x ? pipeline_.width - 1 - x : x, move.flip_y ? pipeline_.height - 1 - y : y);
@@ -88,7 +98,7 @@ ExpectedPixel PlaneCase::changed(const PlaneSupposition& supposed, Plane plane, 
             std::nearbyint(stored(plane, v->albedo[size_t(k)], k)) / views_[size_t(plane)].layout.largest_code(k);
   for (const NamedPlaneFault& f : supposed.faults)
     if (f.fault->change != nullptr && f.fault->plane == plane)
-      for (PlaneValues* v : {&p.value, &p.low, &p.high}) f.fault->change(context_, *v, f.parameter);
+      for (PlaneValues* v : {&p.value, &p.low, &p.high}) f.fault->change(context_, *v, f.parameter.number);
   return p;
 }
 
@@ -122,6 +132,51 @@ double PlaneCase::channel_off(Plane plane, const ExpectedPixel& p, double reach,
   return std::max(0.0, off / unit - room - reach) + (off / unit > room + reach ? kSameSteps : 0);
 }
 
+namespace {
+
+/// Of each number of two pixels what `mix` makes.
+template <class Mix>
+void mix_numbers(PlaneValues& out, const PlaneValues& a, const PlaneValues& b, const Mix& mix) {
+  out.depth = mix(a.depth, b.depth);
+  for (size_t k = 0; k < 3; ++k) {
+    out.position[k] = mix(a.position[k], b.position[k]), out.normal[k] = mix(a.normal[k], b.normal[k]);
+  }
+  for (size_t k = 0; k < 4; ++k) out.albedo[k] = mix(a.albedo[k], b.albedo[k]);
+  for (size_t k = 0; k < 2; ++k) out.uv[k] = mix(a.uv[k], b.uv[k]);
+}
+
+}  // namespace
+
+/// Anything between the surfaces at a pixel and its neighbours; nothing where there is but one.
+std::optional<ExpectedPixel> PlaneCase::average_at(const ExpectedPlanes& planes, int x, int y) const {
+  const auto least = [](double u, double v) { return std::min(u, v); };
+  const auto most = [](double u, double v) { return std::max(u, v); };
+  const PlaneValues seen = given(x, y);
+  ExpectedPixel hull = planes.at(x, y);
+  bool is_edge = false, is_one = false;
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx) {
+      const ExpectedPixel p =
+          planes.at(std::clamp(x + dx, 0, pipeline_.width - 1), std::clamp(y + dy, 0, pipeline_.height - 1));
+      is_edge = is_edge || p.value.object != hull.value.object || p.triangle != hull.triangle;
+      is_one = is_one || (p.value.object == seen.object && p.value.material == seen.material);
+      mix_numbers(hull.low, hull.low, p.low, least), mix_numbers(hull.high, hull.high, p.high, most);
+    }
+  if (!is_edge) return std::nullopt;
+  mix_numbers(hull.value, hull.low, hull.high, [](double u, double v) { return (u + v) / 2; });
+  if (is_one)  // identifiers are not averaged, but of any of them
+    for (PlaneValues* v : {&hull.value, &hull.low, &hull.high}) v->object = seen.object, v->material = seen.material;
+  return hull;
+}
+
+std::array<double, kPlanes> PlaneCase::steps_off(const ExpectedPixel& p, int x, int y) const {
+  std::array<double, kPlanes> off{};
+  for (size_t i = 0; i < kPlanes; ++i)
+    for (int k = 0; views_[i] && k < views_[i].channels; ++k)
+      off[i] = std::max(off[i], channel_off(Plane(i), p, 0, x, y, k));
+  return off;
+}
+
 std::array<double, kPlanes> PlaneCase::steps_off(const PlaneSupposition& supposed, int x, int y) const {
   std::array<double, kPlanes> off{};
   bool moved = false;
@@ -142,10 +197,54 @@ std::array<double, kPlanes> PlaneCase::steps_off(const PlaneSupposition& suppose
     if (moved && off[i] >= kSameSteps && Plane(i) == Plane::albedo && views_[i].unorm())
       off[i] = std::min(off[i], off_by(changed(supposed, Plane(i), x, y, true)));
   }
-  return off;
+  const bool averages = std::any_of(supposed.faults.begin(), supposed.faults.end(),
+                                    [](const NamedPlaneFault& f) { return f.fault->averages; });
+  if (!averages || std::all_of(off.begin(), off.end(), [](double o) { return o < kSameSteps; })) return off;
+  const std::optional<ExpectedPixel> average = average_at(*supposed.drawn, x, y);
+  return average ? steps_off(*average, x, y) : off;
+}
+
+/// As numbers, of the planes that were captured.
+PlaneValues PlaneCase::given(int x, int y) const {
+  PlaneValues v;
+  const auto number = [&](Plane plane, int channel) {
+    const PlaneView& view = views_[size_t(plane)];
+    const double stored = view.stored(x, y, channel);
+    if (!view.unorm()) return stored;
+    const double value = stored / view.layout.largest_code(channel);
+    return plane == Plane::normal ? 2 * value - 1 : value;
+  };
+  const auto fill = [&](Plane plane, auto& numbers) {
+    const PlaneView& view = views_[size_t(plane)];
+    for (size_t k = 0; view && k < std::min(numbers.size(), size_t(view.channels)); ++k)
+      numbers[k] = number(plane, int(k));
+  };
+  fill(Plane::position, v.position), fill(Plane::normal, v.normal), fill(Plane::albedo, v.albedo);
+  fill(Plane::uv, v.uv);
+  if (views_[size_t(Plane::depth)]) v.depth = number(Plane::depth, 0);
+  if (views_[size_t(Plane::material)]) v.material = number(Plane::material, 0);
+  v.object = views_[size_t(Plane::object)] ? number(Plane::object, 0) : -1;
+  v.covered = v.object >= 0 ? v.object > 0 : !is_clear_depth(pipeline_.geometry, v.depth);
+  return v;
+}
+
+PlaneEvidence PlaneCase::evidence() const {
+  PlaneEvidence e{scene_, pipeline_, {}, {}};
+  for (size_t k = 0; k < kPlanes; ++k) e.has[k] = bool(views_[k]);
+  for (const SampledPixel& p : sample_) {
+    const ExpectedPixel expected = right_->at(p.x, p.y);
+    e.pixels.push_back({p, false, given(p.x, p.y), expected.value, expected.triangle});
+  }
+  return e;
 }
 
 double PlaneCase::predicted(const PlaneSupposition& supposed, Plane plane, int x, int y, int channel) const {
+  if (std::any_of(supposed.faults.begin(), supposed.faults.end(),
+                  [](const NamedPlaneFault& f) { return f.fault->averages; }))
+    if (const std::optional<ExpectedPixel> average = average_at(*supposed.drawn, x, y)) {
+      const double v = stored(plane, number_of(average->value, plane, channel), channel);
+      return views_[size_t(plane)].unorm() ? std::nearbyint(v) : v;
+    }
   const double v = stored(plane, number_of(changed(supposed, plane, x, y, false).value, plane, channel), channel);
   return views_[size_t(plane)].unorm() ? std::nearbyint(v) : v;
 }

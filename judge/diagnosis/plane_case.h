@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "judge/diagnosis/disagreement.h"
-#include "judge/diagnosis/plane_faults.h"
+#include "judge/diagnosis/plane_evidence.h"
 #include "judge/diagnosis/plane_search.h"
 
 namespace trueshade::oracle {
@@ -38,10 +38,15 @@ class PlaneCase {
   ExpectedPixel expected(int x, int y) const { return right_->at(x, y); }
   const Scene& scene() const { return scene_; }
   std::shared_ptr<const ExpectedPlanes> expected() const { return right_; }
+  /// What is captured at the sample's pixels, beside what is expected.
+  PlaneEvidence evidence() const;
 
  private:
   /// `after`: the fault comes after the plane's format has rounded its numbers.
   ExpectedPixel changed(const PlaneSupposition& supposed, Plane plane, int x, int y, bool after) const;
+  PlaneValues given(int x, int y) const;
+  std::array<double, kPlanes> steps_off(const ExpectedPixel& p, int x, int y) const;
+  std::optional<ExpectedPixel> average_at(const ExpectedPlanes& planes, int x, int y) const;
   double channel_off(Plane plane, const ExpectedPixel& p, double reach, int x, int y, int channel) const;
   double stored(Plane plane, double value, int channel) const;
 

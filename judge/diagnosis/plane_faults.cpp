@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "judge/diagnosis/reread_depth.h"
 #include "judge/diagnosis/view_axes.h"
 #include "oracle/camera_view.h"
 
@@ -15,9 +16,7 @@ using Context = PlaneContext;
 
 double inner3(const V3& a, const V3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 V3 rotated(const Context& c, const V3& v) { return {inner3(c.view[0], v), inner3(c.view[1], v), inner3(c.view[2], v)}; }
-V3 from_eye(const Context& c, const V3& p) {
-  return {p[0] - c.eye[0], p[1] - c.eye[1], p[2] - c.eye[2]};
-}
+V3 from_eye(const Context& c, const V3& p) { return {p[0] - c.eye[0], p[1] - c.eye[1], p[2] - c.eye[2]}; }
 double encoded_srgb(double v) { return v <= 0 ? 0 : v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
 double decoded_srgb(double v) { return v <= 0 ? 0 : v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
 
@@ -136,16 +135,32 @@ void normal_in_object(const Context& c, PlaneValues& v, double) {
     return unit3(object);
   });
 }
-/// M n for M^-T n.
-void normal_by_matrix(const Context& c, PlaneValues& v, double) {
-  const glm::mat4x3 m = matrix_at(c, v);
-  each_normal(v, [&](const V3& n) {
-    V3 object{}, world{};
-    for (int k = 0; k < 3; ++k)
-      for (int r = 0; r < 3; ++r) object[size_t(k)] += double(m[k][r]) * n[size_t(r)];
-    for (int k = 0; k < 3; ++k)
-      for (int r = 0; r < 3; ++r) world[size_t(r)] += double(m[k][r]) * object[size_t(k)];
-    return unit3(world);
+void normal_doubled(const Context&, PlaneValues& v, double) {
+  each_normal(v, [](const V3& n) { return V3{2 * n[0] - 1, 2 * n[1] - 1, 2 * n[2] - 1}; });
+}
+void normal_scaled(const Context&, PlaneValues& v, double f) {
+  each_normal(v, [f](const V3& n) { return V3{n[0] * f, n[1] * f, n[2] * f}; });
+}
+/// Codes of n / 2 + 1/2, taken for signed ones.
+void normal_as_signed(const Context&, PlaneValues& v, double bits) {
+  const double half = std::ldexp(1.0, int(bits) - 1), largest = 2 * half - 1;
+  each_normal(v, [&](V3 n) {
+    for (double& k : n) {
+      const double code = std::nearbyint(std::clamp(k * 0.5 + 0.5, 0.0, 1.0) * largest);
+      k = std::max(-1.0, (code < half ? code : code - 2 * half) / (half - 1));
+    }
+    return n;
+  });
+}
+/// Signed codes, taken for those of n / 2 + 1/2.
+void normal_as_unsigned(const Context&, PlaneValues& v, double bits) {
+  const double half = std::ldexp(1.0, int(bits) - 1), largest = 2 * half - 1;
+  each_normal(v, [&](V3 n) {
+    for (double& k : n) {
+      const double code = std::nearbyint(std::clamp(k, -1.0, 1.0) * (half - 1));
+      k = (code < 0 ? code + 2 * half : code) / largest * 2 - 1;
+    }
+    return n;
   });
 }
 
@@ -160,6 +175,16 @@ void position_from_eye(const Context& c, PlaneValues& v, double) {
 }
 void position_mirrored(const Context&, PlaneValues& v, double) { v.position[2] = -v.position[2]; }
 void position_swapped(const Context&, PlaneValues& v, double) { std::swap(v.position[1], v.position[2]); }
+DepthPlanes planes_of(const Context& c) { return {double(c.scene.camera.near), double(c.scene.camera.far)}; }
+void position_by_planes(const Context& c, PlaneValues& v, double near, double far) {
+  const DepthPlanes made = planes_of(c);
+  if (v.covered) v.position = reread(c.eye, c.view[2], v.position, made, {made.near * near, made.far * far});
+}
+void position_by_near(const Context& c, PlaneValues& v, double f) { position_by_planes(c, v, f, 1); }
+void position_by_far(const Context& c, PlaneValues& v, double f) { position_by_planes(c, v, 1, f); }
+void position_scaled(const Context&, PlaneValues& v, double f) {
+  for (double& p : v.position) p *= f;
+}
 void position_as_half(const Context&, PlaneValues& v, double) {
   for (double& p : v.position)
     if (p != 0) {
@@ -180,6 +205,14 @@ void albedo_decoded(const Context&, PlaneValues& v, double) {
 void albedo_premultiplied(const Context&, PlaneValues& v, double) {
   for (size_t k = 0; k < 3; ++k) v.albedo[k] *= v.albedo[3];
 }
+void albedo_scaled(const Context&, PlaneValues& v, double f) {
+  for (size_t k = 0; k < 3; ++k) v.albedo[k] *= f;
+}
+void albedo_powered(const Context&, PlaneValues& v, double p) {
+  for (size_t k = 0; k < 3; ++k) v.albedo[k] = v.albedo[k] > 0 ? std::pow(v.albedo[k], p) : 0;
+}
+void alpha_encoded(const Context&, PlaneValues& v, double) { v.albedo[3] = encoded_srgb(v.albedo[3]); }
+void alpha_decoded(const Context&, PlaneValues& v, double) { v.albedo[3] = decoded_srgb(v.albedo[3]); }
 void albedo_bgr(const Context&, PlaneValues& v, double) { std::swap(v.albedo[0], v.albedo[2]); }
 void albedo_alpha(const Context&, PlaneValues& v, double alpha) {
   if (v.covered) v.albedo[3] = alpha;
@@ -201,10 +234,12 @@ void shift_right(PlaneMove& m, double pixels) { m.x += int(pixels); }
 void shift_down(PlaneMove& m, double pixels) { m.y += int(pixels); }
 
 constexpr double kShifts[] = {-1, 1, -2, 2}, kOffsets[] = {-1, 1}, kDepthBits[] = {8, 10, 12, 16, 24},
-                 kAlphas[] = {0, 1}, kThirds[] = {0, 0.5, 1}, kNormalBits[] = {8, 10};
+                 kAlphas[] = {0, 1}, kThirds[] = {0, 0.5, 1}, kNormalBits[] = {8, 10}, kCodeBits[] = {8, 10, 16},
+                 kFactors[] = {0.25, 0.5, 0.8, 0.9, 0.97, 1.03, 1.1, 1.25, 2, 4}, kPowers[] = {0.45, 0.7, 1.4, 2.2},
+                 kPlaneFactors[] = {0.1, 0.2, 0.5, 0.8, 0.95, 1.05, 1.25, 2, 5, 10};
 
 using Fault = PlaneFault;
-constexpr auto kOneOf = Fault::Search::one_of;
+constexpr auto kOneOf = Fault::Search::one_of, kSmooth = Fault::Search::smooth;
 
 // name, text, plane, change, redraw, move, search, starts, doubt, reach
 constexpr PlaneFault kFaults[] = {
@@ -267,7 +302,7 @@ constexpr PlaneFault kFaults[] = {
      nullptr,
      Fault::Search::none,
      {},
-     0.01},
+     0.002},
     {"normal-unnormalised",
      "the normals are not unit length: nobody normalised them after the object's matrix",
      Plane::normal,
@@ -278,8 +313,13 @@ constexpr PlaneFault kFaults[] = {
      {},
      0,
      0},
-    {"normal-matrix", "the normals went through the object's matrix, not through the transpose of its inverse",
-     Plane::normal, normal_by_matrix},
+    {"normal-doubled", "the normals are 2 n - 1: decoded once too often", Plane::normal, normal_doubled},
+    {"normal-scaled", "the normals are %s times as long as they should be", Plane::normal, normal_scaled, nullptr,
+     nullptr, kSmooth, kFactors},
+    {"normal-unorm-as-snorm", "the normals' codes of %s bits are unsigned, and taken for signed ones", Plane::normal,
+     normal_as_signed, nullptr, nullptr, kOneOf, kCodeBits},
+    {"normal-snorm-as-unorm", "the normals' codes of %s bits are signed, and taken for unsigned ones", Plane::normal,
+     normal_as_unsigned, nullptr, nullptr, kOneOf, kCodeBits},
     {"normal-bits", "the normals have %s bits", Plane::normal, normal_rounded, nullptr, nullptr, kOneOf, kNormalBits},
     {"normal-zyx", "the normals' components are in the order ZYX", Plane::normal, normal_axes<2, 1, 0>},
     {"normal-xzy", "the normals' components are in the order XZY", Plane::normal, normal_axes<0, 2, 1>},
@@ -290,6 +330,12 @@ constexpr PlaneFault kFaults[] = {
     {"position-from-eye", "the positions are relative to the eye", Plane::position, position_from_eye},
     {"position-z-turned", "the positions' Z has the wrong sign", Plane::position, position_mirrored},
     {"position-xzy", "the positions' components are in the order XZY", Plane::position, position_swapped},
+    {"position-near", "the positions are rebuilt from depths with a near plane %s times as far as it is",
+     Plane::position, position_by_near, nullptr, nullptr, kSmooth, kPlaneFactors},
+    {"position-far", "the positions are rebuilt from depths with a far plane %s times as far as it is", Plane::position,
+     position_by_far, nullptr, nullptr, kSmooth, kPlaneFactors},
+    {"position-scaled", "the positions are %s times what they should be", Plane::position, position_scaled, nullptr,
+     nullptr, kSmooth, kFactors},
     {"position-half",
      "the positions went through half floats",
      Plane::position,
@@ -303,6 +349,12 @@ constexpr PlaneFault kFaults[] = {
     {"albedo-srgb-decoded", "the albedo is decoded as if it were sRGB", Plane::albedo, albedo_decoded},
     {"albedo-premultiplied", "the albedo is multiplied by its alpha", Plane::albedo, albedo_premultiplied},
     {"albedo-bgr", "the albedo's channels are in the order BGR", Plane::albedo, albedo_bgr},
+    {"albedo-scaled", "the albedo is %s times what it should be", Plane::albedo, albedo_scaled, nullptr, nullptr,
+     kSmooth, kFactors},
+    {"albedo-gamma", "the albedo is raised to the power of %s", Plane::albedo, albedo_powered, nullptr, nullptr,
+     kSmooth, kPowers, 0.002},
+    {"albedo-alpha-srgb-encoded", "the albedo's alpha is sRGB-encoded", Plane::albedo, alpha_encoded},
+    {"albedo-alpha-srgb-decoded", "the albedo's alpha is decoded as if it were sRGB", Plane::albedo, alpha_decoded},
     {"albedo-alpha", "the albedo's alpha is %s everywhere", Plane::albedo, albedo_alpha, nullptr, nullptr, kOneOf,
      kAlphas},
     {"uv-flipped", "v is 1 - v", Plane::uv, uv_flipped},

@@ -3,8 +3,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "judge/diagnosis/expected_planes.h"
+#include "judge/diagnosis/fault_parameter.h"
 
 namespace trueshade::oracle {
 
@@ -29,8 +31,24 @@ struct PlaneMove {
   int x = 0, y = 0;
 };
 
+struct PlaneEvidence;
+
+/// What the numbers of a fault are fitted to.
+enum class Fit : uint8_t {
+  none,    ///< they are as they are suspected
+  object,  ///< the pixels of one object
+  camera   ///< all pixels
+};
+
 struct PlaneFault {
-  enum class Search : uint8_t { none, one_of, depth_offset, object };
+  enum class Search : uint8_t {
+    none,          ///< it has no number
+    one_of,        ///< the best of `starts`
+    depth_offset,  ///< the middle of what depths are off by
+    object,        ///< an object that has pixels which are wrong
+    smooth,        ///< a factor, from the best of `starts`
+    suspected      ///< what `suspects` names, and the numbers by least squares
+  };
   std::string_view name, text;  ///< text: `%s` stands for the parameter
   Plane plane = Plane::all;     ///< that it changes; of `redraw` all of them
   void (*change)(const PlaneContext&, PlaneValues&, double) = nullptr;
@@ -41,9 +59,30 @@ struct PlaneFault {
   double doubt = 0;
   double reach = 0;  ///< steps of the plane, or of the values that it is rounded to, that it may be off
   std::string (*says)(double) = nullptr;
+  // Of Search::suspected:
+  bool (*edit)(Scene&, Pipeline&, const FaultParameter&) = nullptr;         ///< as redraw, by all numbers
+  std::vector<FaultParameter> (*suspects)(const PlaneEvidence&) = nullptr;  ///< which, and from which numbers to start
+  ParameterForm numbers{};
+  enum class Of : uint8_t { object, material } of = Of::object;  ///< what FaultParameter::number counts
+  Fit fit = Fit::none;
+  bool averages = false;   ///< pixels that are off may be averages of two surfaces beside one another
+  bool estimated = false;  ///< what `suspects` names are numbers of the pixels
+  double start = 0;        ///< of each number: what changes nothing
+  double change_of = 0;    ///< a small change of a number; below 0, that part of the scene's extent
+
+  ParameterForm form() const {
+    if (search == Search::suspected) return numbers;
+    return {search != Search::none, false, 0};
+  }
+  /// Whether its numbers are estimates, and only as good as the pixels.
+  bool is_estimate() const { return fit != Fit::none || search == Search::smooth || estimated; }
+  bool redraws() const { return redraw != nullptr || edit != nullptr; }
 };
 
-std::span<const PlaneFault> plane_faults();   ///< plane_faults.cpp: encodings and moves
-std::span<const PlaneFault> redraw_faults();  ///< redraw_faults.cpp: states and scenes
+std::span<const PlaneFault> plane_faults();     ///< plane_faults.cpp: encodings and moves
+std::span<const PlaneFault> redraw_faults();    ///< redraw_faults.cpp: states and scenes
+std::span<const PlaneFault> object_faults();    ///< object_faults.cpp: one object, its matrix and its triangles
+std::span<const PlaneFault> camera_faults();    ///< camera_faults.cpp
+std::span<const PlaneFault> material_faults();  ///< material_faults.cpp
 
 }  // namespace trueshade::oracle

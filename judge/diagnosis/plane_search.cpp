@@ -27,13 +27,14 @@ struct Candidate {
 
 class PlaneSearch {
  public:
-  explicit PlaneSearch(const PlaneCase& planes) : planes_(planes) {
+  explicit PlaneSearch(const PlaneCase& planes) : planes_(planes), evidence_(planes.evidence()) {
     off_few_ = off(planes.right(), planes.few()), off_ = off(planes.right(), planes.sample());
     for (size_t i = 0; i < off_.size(); ++i) {
       const double weight = planes.sample()[i].weight;
       for (size_t k = 0; k < kPlanes; ++k) wrong_[k] += off_[i][k] >= kSameSteps ? weight : 0;
       changed_ += agrees(off_[i]) ? 0 : weight;
     }
+    for (size_t i = 0; i < off_.size(); ++i) evidence_.pixels[i].wrong = !agrees(off_[i]);
     for (size_t i = 0; i < off_few_.size(); ++i) cost_few_ += planes.few()[i].weight * cost(off_few_[i]);
     for (size_t i = 0; i < off_.size(); ++i) cost_ += planes.sample()[i].weight * cost(off_[i]);
   }
@@ -59,8 +60,10 @@ class PlaneSearch {
     for (const double o : off) sum += cost_of(o);
     return sum / planes_.planes();
   }
-  Steps off(const PlaneSupposition& supposed, const std::vector<SampledPixel>& pixels) const;
-  std::vector<double> parameters(const PlaneSupposition& base, const PlaneFault& fault) const;
+  Steps off(const PlaneSupposition& supposed, const std::vector<SampledPixel>& pixels,
+            const Steps* before = nullptr) const;
+  double smooth(const PlaneSupposition& base, const PlaneFault& fault) const;
+  std::vector<FaultParameter> parameters(const PlaneSupposition& base, const PlaneFault& fault) const;
   std::vector<Candidate> beside(const PlaneSupposition& base, bool redraw) const;
   bool bears_on(const PlaneFault& fault) const;
   PlaneSupposition supposed(std::span<const NamedPlaneFault> faults) const;
@@ -68,22 +71,30 @@ class PlaneSearch {
   Proof proof(const PlaneSupposition& supposed, Plane plane, const PlaneSupposition* too_few) const;
 
   const PlaneCase& planes_;
+  PlaneEvidence evidence_;
   Steps off_few_, off_;
   std::array<double, kPlanes> wrong_{};
   double changed_ = 0, cost_few_ = 0, cost_ = 0;
 };
 
-PlaneSearch::Steps PlaneSearch::off(const PlaneSupposition& supposed, const std::vector<SampledPixel>& pixels) const {
+/// Numbers that are fitted are as good as their pixels: what is left of a difference by less than its hundredth is.
+PlaneSearch::Steps PlaneSearch::off(const PlaneSupposition& supposed, const std::vector<SampledPixel>& pixels,
+                                    const Steps* before) const {
+  constexpr double kOfDifference = 0.01;
+  const bool fits = std::any_of(supposed.faults.begin(), supposed.faults.end(),
+                                [](const NamedPlaneFault& f) { return f.fault->is_estimate(); });
   Steps steps(pixels.size());
   parallel_for(int(pixels.size()), 0, [&](int i) {
     steps[size_t(i)] = planes_.steps_off(supposed, pixels[size_t(i)].x, pixels[size_t(i)].y);
+    for (size_t k = 0; fits && before != nullptr && k < kPlanes; ++k)
+      if (steps[size_t(i)][k] < kOfDifference * (*before)[size_t(i)][k]) steps[size_t(i)][k] = 0;
   });
   return steps;
 }
 
 Candidate PlaneSearch::judged(PlaneSupposition supposed, bool all) const {
   const std::vector<SampledPixel>& pixels = all ? planes_.sample() : planes_.few();
-  const Steps now = off(supposed, pixels), &before = all ? off_ : off_few_;
+  const Steps &before = all ? off_ : off_few_, now = off(supposed, pixels, &before);
   Candidate c;
   for (size_t i = 0; i < pixels.size(); ++i) {
     c.found.cost += pixels[i].weight * cost(now[i]);
@@ -91,8 +102,7 @@ Candidate PlaneSearch::judged(PlaneSupposition supposed, bool all) const {
     if (agrees(before[i]) && !agrees(now[i])) c.found.contradicted += pixels[i].weight;
   }
   c.cost = c.found.cost / (all ? cost_ : cost_few_);
-  for (const NamedPlaneFault& f : supposed.faults)
-    c.cost += f.fault->doubt + (f.fault->search != Search::none ? kParameterCost : 0);
+  for (const NamedPlaneFault& f : supposed.faults) c.cost += f.fault->doubt + kParameterCost * f.fault->form().count();
   c.supposed = std::move(supposed);
   return c;
 }
@@ -103,10 +113,46 @@ bool PlaneSearch::bears_on(const PlaneFault& fault) const {
   return changed_ >= kLeastChanged;
 }
 
+/// The best factor: that of the starts, and then golden sections about it.
+double PlaneSearch::smooth(const PlaneSupposition& base, const PlaneFault& fault) const {
+  constexpr double kRatio = 0.6180339887498949;
+  const auto cost_at = [&](double parameter) {  // what is far off counts more than what is less far off
+    const std::optional<PlaneSupposition> s = planes_.with(base, {&fault, parameter});
+    double sum = 0;
+    const Steps now = s ? off(*s, planes_.few()) : Steps{};
+    for (size_t i = 0; i < now.size(); ++i)
+      sum += planes_.few()[i].weight * std::log2(1 + std::min(1e9, now[i][size_t(fault.plane)]));
+    return s ? sum : HUGE_VAL;
+  };
+  double best = 0, least = HUGE_VAL;
+  const auto better = [&](double parameter) {
+    const double c = cost_at(parameter);
+    if (c < least) least = c, best = parameter;
+    return c;
+  };
+  for (const double start : fault.starts) better(start);
+  double low = best / 2, high = best * 2, a = high - kRatio * (high - low), b = low + kRatio * (high - low);
+  double cost_a = better(a), cost_b = better(b);
+  for (int i = 0; i < 34; ++i) {
+    const bool left = cost_a <= cost_b;
+    (left ? high : low) = left ? b : a, (left ? b : a) = left ? a : b,
+                   (left ? cost_b : cost_a) = left ? cost_a : cost_b;
+    (left ? a : b) = left ? high - kRatio * (high - low) : low + kRatio * (high - low);
+    (left ? cost_a : cost_b) = better(left ? a : b);
+  }
+  for (const double unit : {0.1, 0.05, 0.01, 1e-3, 1e-4}) {
+    const double rounded = std::nearbyint(best / unit) * unit;
+    if (rounded > 0 && rounded != 1 && cost_at(rounded) <= least * 1.001) return rounded;
+  }
+  return best;
+}
+
 /// The parameters that are tried for a fault: its table's, or one that is estimated from the pixels.
-std::vector<double> PlaneSearch::parameters(const PlaneSupposition& base, const PlaneFault& fault) const {
+std::vector<FaultParameter> PlaneSearch::parameters(const PlaneSupposition& base, const PlaneFault& fault) const {
   if (fault.search == Search::none) return {0};
   if (fault.search == Search::one_of) return {fault.starts.begin(), fault.starts.end()};
+  if (fault.search == Search::smooth) return {smooth(base, fault)};
+  if (fault.search == Search::suspected) return suspected_parameters(evidence_, fault);
   std::vector<double> differences;
   std::map<uint32_t, double> votes;
   for (size_t i = 0; i < off_few_.size(); ++i) {
@@ -123,8 +169,8 @@ std::vector<double> PlaneSearch::parameters(const PlaneSupposition& base, const 
     for (const auto& [object, weight] : votes) ranked.emplace_back(-weight, double(object));
     std::sort(ranked.begin(), ranked.end());
     if (ranked.size() > 2) ranked.resize(2);
-    std::vector<double> objects;
-    for (const auto& [weight, object] : ranked) objects.push_back(object);
+    std::vector<FaultParameter> objects;
+    for (const auto& [weight, object] : ranked) objects.emplace_back(object);
     return objects;
   }
   if (differences.empty()) return {};
@@ -139,7 +185,7 @@ std::vector<Candidate> PlaneSearch::beside(const PlaneSupposition& base, bool re
       const auto same = [&](const NamedPlaneFault& f) { return f.fault == &fault; };
       if (!bears_on(fault) || std::any_of(base.faults.begin(), base.faults.end(), same)) continue;
       std::optional<Candidate> best;
-      for (const double parameter : parameters(base, fault)) {
+      for (const FaultParameter& parameter : parameters(base, fault)) {
         std::optional<PlaneSupposition> s = planes_.with(base, {&fault, parameter});
         if (!s) continue;
         Candidate c = judged(std::move(*s), false);
@@ -151,7 +197,17 @@ std::vector<Candidate> PlaneSearch::beside(const PlaneSupposition& base, bool re
   tries(plane_faults());
   // A redraw costs far more than another encoding, so planes that an encoding explains are not drawn again.
   const auto explained = [](const Candidate& c) { return c.cost < kExplained; };
-  if (redraw && std::none_of(candidates.begin(), candidates.end(), explained)) tries(redraw_faults());
+  const auto needs_more = [&] { return redraw && std::none_of(candidates.begin(), candidates.end(), explained); };
+  // What is estimated is estimated of captures with no other fault. Alpha tests make a redraw cost most, so theirs is
+  // looked at first.
+  const std::vector<Material>& materials = planes_.scene().materials;
+  const bool masked = std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.masked(); });
+  const bool alone = base.faults.empty();
+  if (masked && alone && needs_more()) tries(material_faults());
+  if (needs_more()) tries(redraw_faults());
+  if (alone && needs_more()) tries(object_faults());
+  if (alone && needs_more()) tries(camera_faults());
+  if (!masked && alone && needs_more()) tries(material_faults());
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
   return candidates;
@@ -176,8 +232,13 @@ std::vector<Candidate> PlaneSearch::look() const {
   const auto explains = [&](const Candidate& c) {
     return c.found.explained - c.found.contradicted >= kNamed * changed_ && c.found.cost < cost_;
   };
-  if (!pairs.empty() && pairs.front().cost < kPairGain * singles.front().cost && explains(pairs.front()))
+  if (!pairs.empty() && pairs.front().cost < kPairGain * singles.front().cost && explains(pairs.front())) {
+    // What explains more by itself comes first.
+    std::vector<NamedPlaneFault>& faults = pairs.front().supposed.faults;
+    const auto alone = [&](const NamedPlaneFault& f) { return share(supposed({&f, 1}), Plane::all).explained; };
+    if (faults.size() == 2 && alone(faults[1]) > alone(faults[0])) std::swap(faults[0], faults[1]);
     return {std::move(pairs.front())};
+  }
   const double most = singles.front().cost + kRival;
   singles.erase(
       std::remove_if(singles.begin(), singles.end(), [&](const Candidate& c) { return !explains(c) || c.cost > most; }),
@@ -194,7 +255,7 @@ PlaneSupposition PlaneSearch::supposed(std::span<const NamedPlaneFault> faults) 
 
 /// Of the pixels of one plane, or of all.
 PlaneSearch::Share PlaneSearch::share(const PlaneSupposition& supposed, Plane plane) const {
-  const Steps now = off(supposed, planes_.sample());
+  const Steps now = off(supposed, planes_.sample(), &off_);
   Share out;
   double same = 0;
   for (size_t i = 0; i < off_.size(); ++i) {
@@ -214,13 +275,14 @@ PlaneSearch::Share PlaneSearch::share(const PlaneSupposition& supposed, Plane pl
 Proof PlaneSearch::proof(const PlaneSupposition& supposed, Plane plane, const PlaneSupposition* too_few) const {
   Proof proof;
   double farthest = 0;
+  const Steps now = off(supposed, planes_.sample(), &off_);
   for (size_t i = 0; i < off_.size(); ++i) {
     const auto [x, y, weight] = planes_.sample()[i];
     const size_t worst = plane != Plane::all
                              ? size_t(plane)
                              : size_t(std::max_element(off_[i].begin(), off_[i].end()) - off_[i].begin());
     if (off_[i][worst] < kSameSteps || off_[i][worst] <= farthest) continue;
-    if (!agrees(planes_.steps_off(supposed, x, y), plane)) continue;
+    if (!agrees(now[i], plane)) continue;
     if (too_few != nullptr && agrees(planes_.steps_off(*too_few, x, y), plane)) continue;
     double most = 0;
     for (int k = 0; k < planes_.view(Plane(worst)).channels; ++k) {
@@ -259,17 +321,8 @@ Finding PlaneSearch::finding(std::span<const NamedPlaneFault> faults, size_t whi
 
 }  // namespace
 
-std::string name_of(const PlaneFault& fault, double parameter) {
-  return std::string(fault.name) + (fault.search == Search::none ? "" : "=" + parameter_word(fault, parameter));
-}
-
-std::string text_of(const PlaneFault& fault, double parameter) {
-  std::string text(fault.text);
-  const size_t at = text.find("%s");
-  if (at != std::string::npos)
-    text.replace(at, 2, fault.says != nullptr ? fault.says(parameter) : parameter_text(parameter));
-  return text;
-}
+std::string name_of(const PlaneFault& fault, const FaultParameter& parameter) { return fault_name(fault, parameter); }
+std::string text_of(const PlaneFault& fault, const FaultParameter& parameter) { return fault_text(fault, parameter); }
 
 PlaneFindings plane_findings(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                              const Capture& capture, const StageVerdict& stage, std::span<const NamedPlaneFault> only) {
@@ -293,6 +346,7 @@ PlaneFindings plane_findings(const Scene& scene, const Pipeline& pipeline, const
     for (size_t i = 0; i < c.supposed.faults.size(); ++i) named.push_back(search.finding(c.supposed.faults, i));
     const auto unproved = [](const Finding& f) { return f.proof.plane.empty(); };
     if (only.empty() && std::any_of(named.begin(), named.end(), unproved)) continue;
+    if (out.findings.empty()) out.drawn = c.supposed.scene;
     for (Finding& f : named) out.findings.push_back(std::move(f));
   }
   return out;

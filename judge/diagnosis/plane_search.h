@@ -12,7 +12,7 @@ namespace trueshade::oracle {
 
 struct NamedPlaneFault {
   const PlaneFault* fault = nullptr;
-  double parameter = 0;
+  FaultParameter parameter;
 };
 
 /// Findings about the G-buffer, the likeliest first, as diagnose() has them, and the planes that are not as expected.
@@ -20,13 +20,14 @@ struct PlaneFindings {
   std::vector<Finding> findings;
   std::array<bool, kPlanes> wrong{};               ///< by Plane
   std::shared_ptr<const ExpectedPlanes> expected;  ///< of a right renderer; null where no plane is wrong
+  std::shared_ptr<const Scene> drawn;  ///< what the likeliest fault draws, where it draws another scene; or null
 };
 
 ///   only: faults that are supposed, all together; empty: look for the likeliest
 PlaneFindings plane_findings(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                              const Capture& capture, const StageVerdict& stage, std::span<const NamedPlaneFault> only);
 
-std::string name_of(const PlaneFault& fault, double parameter);
-std::string text_of(const PlaneFault& fault, double parameter);
+std::string name_of(const PlaneFault& fault, const FaultParameter& parameter);
+std::string text_of(const PlaneFault& fault, const FaultParameter& parameter);
 
 }  // namespace trueshade::oracle

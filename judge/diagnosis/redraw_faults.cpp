@@ -93,12 +93,16 @@ bool provoke(Scene&, Pipeline& p, double) {
          g.albedo.interpolation == Interpolation::flat;
 }
 template <class Change>
-bool change_samplers(Scene& s, const Change& change) {
+bool change_slots(Scene& s, const Change& change) {
   bool any = false;
   for (Material& m : s.materials)
     for (TextureSlot* slot : maps_of(m))
-      if (slot->used()) change(slot->sampler), any = true;
+      if (slot->used()) change(*slot), any = true;
   return any;
+}
+template <class Change>
+bool change_samplers(Scene& s, const Change& change) {
+  return change_slots(s, [&change](TextureSlot& slot) { change(slot.sampler); });
 }
 /// Filters that textures are read with by mistake. `nearest_mipmap_linear` is what OpenGL has where nobody sets one.
 struct TextureFilter {
@@ -170,9 +174,48 @@ bool leave_out(Scene& s, Pipeline&, double object) {
   s.meshes.emplace_back();
   return true;
 }
+bool no_vertex_colors(Scene& s, Pipeline&, double) {
+  bool any = false;
+  for (Mesh& m : s.meshes)
+    for (FloatStream& stream : m.color) any = any || !stream.empty(), stream = {};
+  return any;
+}
+bool other_sides(Scene& s, Pipeline&, double) {
+  for (Material& m : s.materials) m.double_sided = !m.double_sided;
+  return !s.materials.empty();
+}
+bool other_uv_set(Scene& s, Pipeline&, double) {
+  if (std::all_of(s.meshes.begin(), s.meshes.end(), [](const Mesh& m) { return m.more_uv.empty(); })) return false;
+  return change_slots(s, [](TextureSlot& slot) { slot.uv_set = slot.uv_set == 0 ? 1 : 0; });
+}
 bool no_transforms(Scene& s, Pipeline&, double) {
   for (Instance& i : s.instances) i.world_from_object = glm::mat4x3(1.0f);
   return true;
+}
+
+/// M n for M^-T n: the object's normals become M^T M n, which its own matrix takes there. Each object has a mesh then.
+bool normals_by_matrix(Scene& s, Pipeline&, double) {
+  bool any = false;
+  for (Instance& instance : s.instances) {
+    const glm::mat4x3& m = instance.world_from_object;
+    if (s.meshes[instance.mesh].normal[0].empty()) continue;
+    const auto inner = [](const glm::vec3& a, const glm::vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
+    const float size = inner(m[0], m[0]);
+    const auto near = [size](float a, float b) { return std::fabs(a - b) <= 1e-5f * size; };
+    if (near(inner(m[1], m[1]), size) && near(inner(m[2], m[2]), size) && near(inner(m[0], m[1]), 0) &&
+        near(inner(m[0], m[2]), 0) && near(inner(m[1], m[2]), 0))
+      continue;  // a rotation, and one scale
+    any = true;
+    Mesh mesh = s.meshes[instance.mesh];
+    for (size_t i = 0; i < mesh.vertex_count(); ++i) {
+      const glm::vec3 n(mesh.normal[0][i], mesh.normal[1][i], mesh.normal[2][i]);
+      const glm::vec3 world = m[0] * n.x + m[1] * n.y + m[2] * n.z;
+      for (size_t k = 0; k < 3; ++k) mesh.normal[k][i] = inner(m[int(k)], world);
+    }
+    instance.mesh = uint32_t(s.meshes.size());
+    s.meshes.push_back(std::move(mesh));
+  }
+  return any;
 }
 
 std::string face_name(double face) {
@@ -199,7 +242,7 @@ std::string wrap_name(double way) { return std::string(kWrapNames[size_t(std::cl
 constexpr double kFaces[] = {0, 1, 2}, kFuncs[] = {1, 3, 4, 6, 7},
                  kFormats2[] = {double(Format::d16), double(Format::d24), double(Format::d32f)},
                  kDirectionNumbers[] = {0, 1, 2, 3, 4, 5, 6, 7}, kFilters[] = {0, 1, 2, 3, 4, 5, 6},
-                 kBiases[] = {-1, -0.5, 0.5, 1}, kWraps[] = {0, 1, 2}, kOffsets2[] = {-2, -1, 1, 2},
+                 kBiases[] = {-2, -1, -0.5, 0.5, 1, 2}, kWraps[] = {0, 1, 2}, kOffsets2[] = {-2, -1, 1, 2},
                  kNoPerspective[] = {2};
 
 using Fault2 = PlaneFault;
@@ -243,7 +286,17 @@ constexpr PlaneFault kFaults2[] = {
      Plane::all, nullptr, recode_textures},
     {"texture-missing", "the colour maps are not read", Plane::all, nullptr, no_textures},
     {"base-color-missing", "the materials' base colours are not applied", Plane::all, nullptr, no_base_color},
+    {"vertex-colors-missing", "the vertices' colours are not applied", Plane::all, nullptr, no_vertex_colors},
+    {"double-sided", "materials are of two sides that should be of one, or of one that should be of two", Plane::all,
+     nullptr, other_sides},
+    {"texture-uv-set", "maps are read by the other set of texture coordinates", Plane::all, nullptr, other_uv_set},
     {"object-missing", "object %s is not drawn", Plane::all, nullptr, leave_out, nullptr, Fault2::Search::object},
+    {"normal-matrix", "the normals went through the object's matrix, not through the transpose of its inverse",
+     Plane::normal, nullptr, normals_by_matrix},
+    {.name = "edges-averaged",
+     .text = "edges hold averages of the surfaces at them, as a resolve of samples makes them",
+     .doubt = 0.08,
+     .averages = true},
     {"transforms-missing", "the objects' matrices are not applied", Plane::all, nullptr, no_transforms},
 };
 

@@ -75,12 +75,13 @@ Range range_sought(const PictureFault& fault, const Scene& scene) {
       return numbers_of(scene.lights.size() + 1);
     case Search::none:
     case Search::one_of:
-    case Search::one_light:  // light_and_vector() reads it
+    case Search::one_light:  // several_numbers() reads it
       break;
   }
   return {1, 0};
 }
 Range range_sought(const PlaneFault& fault, const Scene& scene) {
+  if (fault.search == PlaneFault::Search::smooth) return kFactors;
   if (fault.search == PlaneFault::Search::object) return numbers_of(scene.instances.size());
   return fault.search == PlaneFault::Search::depth_offset ? kDepths : Range{1, 0};
 }
@@ -124,42 +125,52 @@ double parameter_of(const Fault& fault, const Scene& scene, const std::string* t
   throw refuse(text_of(range));
 }
 
-/// `3:0.5,0,-1`: a light that the fault can be of, and three numbers.
-FaultParameter light_and_vector(const PictureFault& fault, const Scene& scene, const std::string* text,
-                                const std::string& name) {
-  constexpr double kMost = 1e9;
-  FaultParameter parameter;
-  std::array<double*, 4> numbers = {&parameter.number, &parameter.vector[0], &parameter.vector[1],
-                                    &parameter.vector[2]};
-  const char* at = text != nullptr ? text->c_str() : "";
-  bool fits = true;
-  for (size_t i = 0; i < numbers.size() && fits; ++i) {
-    char* end = nullptr;
-    *numbers[i] = std::strtod(at, &end);
-    fits = end != at && *end == ":,,\0"[i] && std::fabs(*numbers[i]) <= kMost;
-    at = end + (fits && i + 1 < numbers.size() ? 1 : 0);
-  }
-  const double light = parameter.number;
-  fits = fits && light >= 0 && light == std::floor(light) && light < double(scene.lights.size()) &&
-         fault.of_light(scene.lights[size_t(light)]);
-  if (fits) return parameter;
-  throw refused(name, text == nullptr ? "needs its parameter after `=`" : "has a parameter that it does not take",
-                std::string(fault.name) + " takes a light that has what is changed, and three numbers: 0:0.5,0,-1");
+bool names_one(double index, size_t count) { return index >= 0 && index == std::floor(index) && index < double(count); }
+bool can_be(const PictureFault& fault, const Scene& scene, const FaultParameter& p) {
+  return names_one(p.number, scene.lights.size()) && fault.of_light(scene.lights[size_t(p.number)]);
 }
+/// Whether there is such an object with such a part, and the fault changes it.
+bool can_be(const PlaneFault& fault, const Scene& scene, const FaultParameter& p) {
+  const ParameterForm form = fault.form();
+  const size_t count = fault.of == PlaneFault::Of::material ? scene.materials.size() : scene.instances.size();
+  if (form.number && !names_one(p.number, count)) return false;
+  if (form.part && !(p.part >= 0 && p.part == std::floor(p.part))) return false;
+  return true;
+}
+
+bool can_be(const GlassFault&, const Scene& scene, const FaultParameter& p) {
+  return names_one(p.number, scene.instances.size());
+}
+
+/// `3:0.5,0,-1`: a light or an object that the fault can be of, and the fault's own numbers.
+template <class Fault>
+FaultParameter several_numbers(const Fault& fault, const Scene& scene, const std::string* text,
+                               const std::string& name) {
+  const ParameterForm form = fault.form();
+  const std::optional<FaultParameter> parameter = text == nullptr ? std::nullopt : parameter_of_name(form, *text);
+  if (parameter && can_be(fault, scene, *parameter)) return *parameter;
+  throw refused(name, text == nullptr ? "needs its parameter after `=`" : "has a parameter that it does not take",
+                std::string(fault.name) + " takes " + listed_parameter(form) +
+                    (form.number ? ", the first a number of what it can be of" : ""));
+}
+
+/// Whether its numbers are more than the one that parameter_of() reads.
+bool has_several(const PictureFault& fault) { return fault.search == Search::one_light; }
+bool has_several(const PlaneFault& fault) { return fault.search == PlaneFault::Search::suspected; }
 
 /// Adds the fault if there is one in the tables.
 template <class Named, class Fault>
 bool add_supposed(std::vector<Named>& to, const Fault* fault, const Scene& scene, const std::string* text,
                   const std::string& name) {
   if (fault == nullptr) return false;
-  const bool none = fault->search == decltype(fault->search)::none;
+  const bool none = !fault->form().any();
   if (none && text != nullptr) throw refused(name, "has a parameter", std::string(fault->name) + " takes none");
-  if constexpr (std::is_same_v<Fault, PictureFault>)
-    if (fault->search == Search::one_light) {
-      to.push_back({fault, light_and_vector(*fault, scene, text, name)});
+  if constexpr (!std::is_same_v<Fault, GlassFault>)
+    if (!none && !has_several(*fault)) {
+      to.push_back({fault, parameter_of(*fault, scene, text, name)});
       return true;
     }
-  to.push_back({fault, none ? 0 : parameter_of(*fault, scene, text, name)});
+  to.push_back({fault, none ? FaultParameter() : several_numbers(*fault, scene, text, name)});
   return true;
 }
 
@@ -174,8 +185,11 @@ SupposedFaults supposed_faults(std::span<const std::string> names, const Scene& 
     const std::string after = given ? name.substr(equals + 1) : "";
     const std::string* text = given ? &after : nullptr;
     const auto* picture = fault_named<PictureFault>(bare, {picture_value_faults(), light_faults()});
-    const auto* plane = fault_named<PlaneFault>(bare, {plane_faults(), redraw_faults()});
-    if (!add_supposed(out.picture, picture, scene, text, name) && !add_supposed(out.planes, plane, scene, text, name))
+    const auto* plane = fault_named<PlaneFault>(
+        bare, {plane_faults(), redraw_faults(), object_faults(), camera_faults(), material_faults()});
+    const auto* glass = fault_named<GlassFault>(bare, {glass_faults()});
+    if (!add_supposed(out.picture, picture, scene, text, name) && !add_supposed(out.planes, plane, scene, text, name) &&
+        !add_supposed(out.glass, glass, scene, text, name))
       throw no_fault(name);
   }
   return out;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "judge/diagnosis/glass_faults.h"
 #include "judge/diagnosis/picture_search.h"
 #include "judge/diagnosis/plane_search.h"
 
@@ -12,6 +13,7 @@ namespace trueshade::oracle {
 struct SupposedFaults {
   std::vector<NamedFault> picture;
   std::vector<NamedPlaneFault> planes;
+  std::vector<NamedGlassFault> glass;
 };
 
 /// Faults as `--suppose` has them. What is returned has only parameters that its faults are made for: those of their

@@ -41,7 +41,7 @@ std::map<std::string_view, Score> one_try_each(std::span<const Plant* const> cho
   std::map<std::string_view, Score> all;
   for (size_t i = 0; i < chosen.size(); ++i) {
     const Plant& plant = *chosen[i];
-    const std::vector<Ground> on = grounds(plant.presets[i % plant.presets.size()], 1);
+    const std::vector<Ground> on = grounds(plant, plant.presets[i % plant.presets.size()], 1);
     for (size_t next = 0; next < on.size() && all.count(plant.name) == 0; ++next) {
       const Ground& ground = on[(5 * i + next) % on.size()];
       if (!plant.loops_only || !blends_lights(ground.strategy)) add_try(ground, plant, int(i) % plant.variants, all);
@@ -56,7 +56,7 @@ std::map<std::string_view, Score> scores(std::span<const Plant* const> chosen, i
   int at = 0;
   for (const Plant* plant : chosen)
     for (const std::string_view preset : plant->presets)
-      for (const Ground& ground : grounds(preset, views)) {
+      for (const Ground& ground : grounds(*plant, preset, views)) {
         if (plant->loops_only && blends_lights(ground.strategy)) continue;
         if (at++ % step != 0) continue;
         add_try(ground, *plant, at / step % plant->variants, all);

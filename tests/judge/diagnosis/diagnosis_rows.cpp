@@ -1,9 +1,10 @@
 // Plants every fault in captures of three scenes, and writes what the diagnosis says: a line a try, tab-separated.
 //
-//   diagnosis_rows FILE [PART-OF-A-NAME [VIEWS [STEP]]]
+//   diagnosis_rows FILE [PART-OF-A-NAME [VIEWS [STEP [PART PARTS]]]]
 //   diagnosis_rows FILE --pairs COUNT
 //
-// STEP: of the tries one in so many; one that shares no factor with 24 meets all scenes, targets and strategies.
+// STEP: of the tries one in so many, of each fault from another one on; a number that shares no factor with 24 meets all
+// scenes, targets and strategies. PART of PARTS: of the faults one in so many, for several processes.
 // Pairs: two faults at once; the fault is `one + other`, `named first` says whether the first of them is named, `named`
 // whether both are.
 //
@@ -50,11 +51,14 @@ int main(int count, char** arguments) {
   const char* part = count > 2 ? arguments[2] : "";
   const int views = count > 3 ? std::atoi(arguments[3]) : 2;
   const int step = count > 4 ? std::atoi(arguments[4]) : 1;
+  const int share = count > 6 ? std::atoi(arguments[5]) : 0, shares = count > 6 ? std::atoi(arguments[6]) : 1;
+  int ordinal = 0;
   for (const Plant& plant : plants()) {
-    int tries = 0;
+    int tries = ordinal * 5;
+    if (ordinal++ % shares != share) continue;
     if (std::string(plant.name).find(part) == std::string::npos) continue;
     for (const std::string_view preset : plant.presets)
-      for (const Ground& ground : grounds(preset, views))
+      for (const Ground& ground : grounds(plant, preset, views))
         for (int variant = 0; variant < plant.variants; ++variant) {
           if (plant.loops_only && blends_lights(ground.strategy)) continue;
           if (tries++ % step != 0) continue;

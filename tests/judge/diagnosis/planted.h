@@ -27,6 +27,7 @@ struct Plant {
   bool lights_again = false;  ///< `output` lights the picture anew from its planes: before any other
   /// What right and wrong renderer are both given.
   void (*base)(Scene&, Pipeline&) = nullptr;
+  std::vector<std::string_view> scenes = {"city,lights=60,objects=300", "cornell", "circle,lights=24"};
 };
 std::span<const Plant> plants();
 
@@ -37,13 +38,14 @@ struct Ground {
   Format target = Format::rgba8;
   int view = 0;  ///< the camera, moved a little
 };
-/// Three scenes, two targets, loops and volumes.
-std::vector<Ground> grounds(std::string_view preset, int views);
+/// The plant's scenes, two targets, loops and volumes.
+std::vector<Ground> grounds(const Plant& plant, std::string_view preset, int views);
+std::vector<Ground> grounds(std::string_view preset, int views);  ///< of most plants
 
 struct PlantedTry {
   uint64_t changed = 0;  ///< pixels of the blamed plane by a step of its format
   bool convicted = false, first = false, named = false, blamed = false;
-  uint64_t beyond = 0;  ///< of `changed`, those that the nearest picture of a right renderer has otherwise, too
+  uint64_t beyond = 0;       ///< of `changed`, those that the nearest picture of a right renderer has otherwise, too
   bool second = false;       ///< of two faults, the other one is named too
   uint64_t both_matter = 0;  ///< pixels that the lesser of the two changes beside the other
   double ms = 0;             ///< that the diagnosis took

@@ -16,8 +16,6 @@ using namespace trueshade::oracle;
 
 namespace {
 
-constexpr const char* kScenes[] = {"city,lights=60,objects=300", "cornell", "circle,lights=24"};
-
 Scene scene_of(const Ground& ground) {
   Scene scene = builtin_scene(ground.scene);
   scene.camera.eye += glm::vec3(0.11f, 0.07f, -0.05f) * float(ground.view);
@@ -63,13 +61,15 @@ bool says(const Finding& finding, const Plant& plant) {
 
 }  // namespace
 
-std::vector<Ground> grounds(std::string_view preset, int views) {
+std::vector<Ground> grounds(std::string_view preset, int views) { return grounds(Plant{}, preset, views); }
+
+std::vector<Ground> grounds(const Plant& plant, std::string_view preset, int views) {
   std::vector<Ground> all;
   for (int view = 0; view < views; ++view)
-    for (const char* scene : kScenes)
+    for (const std::string_view scene : plant.scenes)
       for (const Format target : {Format::rgba8, Format::rgba16f})
         for (const Strategy strategy : {Strategy::deferred_loop, Strategy::deferred_volumes})
-          all.push_back({scene, std::string(preset), strategy, target, view});
+          all.push_back({std::string(scene), std::string(preset), strategy, target, view});
   return all;
 }
 
@@ -117,7 +117,8 @@ std::vector<PlantedPair> pairs_of_plants(int count) {
     for (const std::string_view p : one.presets)
       if (std::find(other.presets.begin(), other.presets.end(), p) != other.presets.end()) preset = p;
     if (preset.empty()) continue;
-    const std::vector<Ground> on = grounds(preset, 1);
+    if (one.scenes != other.scenes) continue;
+    const std::vector<Ground> on = grounds(one, preset, 1);
     const Ground& ground = on[(i * 5) % on.size()];
     if ((one.loops_only || other.loops_only) && blends_lights(ground.strategy)) continue;
     pairs.push_back({&one, &other, ground});
@@ -157,7 +158,7 @@ PlantedTry planted_try(const Ground& ground, const Plant& plant, int variant, co
   for (size_t i = 0; i < findings.size(); ++i) {
     out.found += (i > 0 ? " " : "") + findings[i].name;
     if (says(findings[i], plant)) {
-      out.named = true, out.first = out.first || i == 0;
+      out.named = true, out.first = out.first || (i == 0 && !findings[i].partial);
       out.blamed = out.blamed || findings[i].plane == plant.plane;
     }
     if (other != nullptr && says(findings[i], *other)) out.second = true;

@@ -4,9 +4,10 @@ namespace trueshade::testing {
 
 std::span<const Plant> plants() {
   static const std::vector<Plant> all = [] {
-    std::vector<Plant> both = plants_of_pictures();
-    both.insert(both.end(), plants_of_planes().begin(), plants_of_planes().end());
-    return both;
+    std::vector<Plant> every = plants_of_pictures();
+    for (const auto& more : {plants_of_planes(), plants_of_scenes(), plants_of_lights(), plants_of_materials()})
+      every.insert(every.end(), more.begin(), more.end());
+    return every;
   }();
   return all;
 }

@@ -5,5 +5,8 @@ namespace trueshade::testing {
 
 const std::vector<Plant>& plants_of_pictures();
 const std::vector<Plant>& plants_of_planes();
+const std::vector<Plant>& plants_of_scenes();
+const std::vector<Plant>& plants_of_lights();
+const std::vector<Plant>& plants_of_materials();
 
 }  // namespace trueshade::testing

@@ -1,0 +1,41 @@
+#pragma once
+// What people get wrong of transparent surfaces that are blended over the lit picture.
+#include "judge/diagnosis/picture_case.h"
+
+namespace trueshade::oracle {
+
+/// One fragment of glass at a pixel.
+struct GlassLayer {
+  uint32_t instance = 0;
+  double distance = 0;  ///< of the middle of its object, from the eye
+  Color color{};        ///< lit, and its alpha
+};
+
+/// What a fault may change: fragments in the order in which they are drawn, and how they are blended.
+struct GlassPixel {
+  std::vector<GlassLayer> layers;
+  BlendState blend;
+};
+
+struct GlassFault {
+  std::string_view name, text;
+  void (*change)(GlassPixel&, double) = nullptr;
+  bool of_object = false;  ///< its parameter is an object that is transparent
+  std::string (*says)(double) = nullptr;
+
+  ParameterForm form() const { return {of_object, false, 0}; }
+};
+std::span<const GlassFault> glass_faults();
+
+struct NamedGlassFault {
+  const GlassFault* fault = nullptr;
+  FaultParameter parameter;
+};
+
+/// Findings about the pixels under glass, the likeliest first, as diagnose() has them. Of `after-lights` alone.
+///   picture: of the same capture, which knows what the lights make
+std::vector<Finding> glass_findings(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                                    const Capture& capture, const StageVerdict& stage, const PictureCase& picture,
+                                    std::span<const NamedGlassFault> only);
+
+}  // namespace trueshade::oracle

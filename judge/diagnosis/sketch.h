@@ -1,0 +1,44 @@
+#pragma once
+// What meshes show at a few pixels, in doubles and without textures: for estimates, which are judged afterwards.
+#include <span>
+#include <vector>
+
+#include "judge/diagnosis/disagreement.h"
+#include "judge/diagnosis/expected_planes.h"
+
+namespace trueshade::oracle {
+
+class Sketch {
+ public:
+  Sketch(std::span<const SampledPixel> pixels, const Pipeline& pipeline);
+
+  void clear(const Pipeline& pipeline);
+  /// In order of submission, by the pipeline's depth test. Object, depth, position and normal of its pixels.
+  void draw(const Scene& scene, const Pipeline& pipeline, const Mesh& mesh, uint32_t instance);
+  std::span<const PlaneValues> pixels() const { return values_; }
+
+ private:
+  struct Vertex {
+    std::array<double, 4> clip;
+    std::array<double, 3> position, normal;
+  };
+  struct Faces {
+    int culled = 0;  ///< the sign of the area that is not drawn
+    int turned = 0;  ///< the sign of the area whose normals are turned round
+  };
+  void draw_triangle(const std::array<const Vertex*, 3>& v, const Faces& faces, const GeometryState& state,
+                     double object);
+  void cover(size_t pixel, const std::array<double, 3>& weights, const std::array<const Vertex*, 3>& v, double turn,
+             const GeometryState& state, double object);
+
+  struct Place {
+    double x, y;  ///< window pixels, y up
+    uint32_t index;
+  };
+  std::vector<std::vector<Place>> rows_;  ///< by y up
+  std::vector<PlaneValues> values_;
+  std::vector<Vertex> vertices_;
+  Viewport viewport_;
+};
+
+}  // namespace trueshade::oracle
