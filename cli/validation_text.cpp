@@ -218,7 +218,7 @@ std::vector<std::string> hidden_by_materials(const oracle::Verdict& v) {
   std::vector<std::string> lines;
   std::string key;
   for (const oracle::MaterialEvidence& e : v.materials) {
-    if (e.is_of_channel || e.cause == "late") continue;
+    if (e.is_of_channel || e.cause == "order") continue;
     const bool is_relative = e.cause == "gain" || e.cause == "scale";
     const std::string now = e.subject() + ", " + (e.map.empty() ? "glass" : e.map) + " in " + e.plane;
     const std::string limit =

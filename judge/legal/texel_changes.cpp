@@ -82,55 +82,70 @@ Rgba change_of_steps(const Texture& texture, const Rgba& texel, const std::array
   return out;
 }
 
+/// A texture read one way at one place.
+class Reading {
+ public:
+  Reading(const Texture& texture, const Sampler& sampler, const TexelWay& way)
+      : texture_(texture), sampler_(sampler), way_(way) {
+    rules_.mesa_decode = way.mesa;
+  }
+
+  bool is_srgb() const { return texture_.format == TextureFormat::srgb8_a8; }
+
+  Rgba at(double u, double v, double lod, bool other_order = false) const {
+    const bool late = is_srgb() && way_.late != other_order;
+    Rgba texel = Lookup{{texture_, sampler_, rules_, nullptr, late}, u, v}.at(lod);
+    for (size_t c = 0; c < 3 && late; ++c)
+      texel[c] = double(way_.mesa ? mesa_decoded(texel[c]) : srgb_decoded(texel[c]));
+    return texel;
+  }
+
+ private:
+  const Texture& texture_;
+  const Sampler& sampler_;
+  const TexelWay way_;
+  Sampling rules_{};
+};
+
+/// log2 of rho as a way has it, biased and clamped.
+double level_by(const Texture& texture, const Sampler& s, const TexturePlace& place, double rho) {
+  const long double w = texture.levels[0].width, h = texture.levels[0].height;
+  const long double exact =
+      std::log2(std::max(std::hypot(place.u_x * w, place.v_x * h), std::hypot(place.u_y * w, place.v_y * h)));
+  const LodRange legal = legal_lod(texture, place);  // from the largest derivative to sqrt(2) times the sum
+  const long double to = rho < 0 ? legal.low : legal.high - 0.5L;
+  const long double lod = rho == 0 ? exact : exact + std::fabs(rho) * (to - exact);
+  return double(std::clamp<long double>(lod + s.lod_bias, s.lod_min, s.lod_max));
+}
+
 }  // namespace
 
 std::optional<TexelChanges> texel_changes(const Texture& texture, const Sampler& s, const TexturePlace& place,
-                                          bool normals) {
-  const auto biased = [&s](long double rho) {
-    return double(std::clamp<long double>(rho + s.lod_bias, s.lod_min, s.lod_max));
-  };
-  const double u = double(place.u), v = double(place.v), lod = double(level_of_detail(texture, s, place));
+                                          bool normals, const TexelWay& way) {
+  const double u = double(place.u), v = double(place.v), lod = level_by(texture, s, place, way.rho);
   if (!is_sure(texture, s, u, v, lod)) return std::nullopt;
-  const Sampling plain{};
-  const Lookup lookup{{texture, s, plain, nullptr}, u, v};
+  const Reading reading(texture, s, way);
   TexelChanges out;
   const auto change = [&out](TexelCause cause) -> Rgba& { return out.change[size_t(cause)]; };
-  out.texel = lookup.at(lod);
+  out.texel = reading.at(u, v, lod);
   change(TexelCause::gain) = change_of_gain(out.texel, normals);
-  constexpr double kLevel = 0x1p-3, kShift = 0x1p-6;  // levels, texels
+  constexpr double kPart = 0x1p-3, kShift = 0x1p-6;  // levels and ways, texels
   const bool is_clamped = lod <= double(s.lod_min) || lod >= double(s.lod_max);
   if (s.mip_filter != MipFilter::none && std::isfinite(lod) && !is_clamped) {
-    change(TexelCause::level) = slope(lookup.at(lod + kLevel), lookup.at(lod - kLevel), 2 * kLevel);
-    const LodRange legal = legal_lod(texture, place);
-    change(TexelCause::least_rho) = slope(lookup.at(biased(legal.low)), out.texel, 1);
-    const double most = biased(legal.high - 0.5L);
-    const Rgba half_way = lookup.at((lod + most) / 2);
-    change(TexelCause::half_sum_rho) = slope(half_way, out.texel, 1);
-    change(TexelCause::sum_rho) = slope(lookup.at(most), half_way, 1);
+    const auto by_rho = [&](double more) { return reading.at(u, v, level_by(texture, s, place, way.rho + more)); };
+    change(TexelCause::level) = slope(reading.at(u, v, lod + kPart), reading.at(u, v, lod - kPart), 2 * kPart);
+    change(TexelCause::rho) = slope(by_rho(kPart), by_rho(-kPart), 2 * kPart);
   }
   if (filter_of(s, lod) == Filter::linear) {
-    const auto level = size_t(
-        lod > 0 && s.mip_filter != MipFilter::none ? std::clamp<double>(lod, 0, double(texture.levels.size() - 1)) : 0);
-    const auto moved = [&](double du, double dv) {
-      return Lookup{lookup.texels, u + du * kShift / texture.levels[level].width,
-                    v + dv * kShift / texture.levels[level].height}
-          .at(lod);
-    };
-    change(TexelCause::shift_u) = slope(moved(1, 0), moved(-1, 0), 2 * kShift);
-    change(TexelCause::shift_v) = slope(moved(0, 1), moved(0, -1), 2 * kShift);
+    const bool levels = lod > 0 && s.mip_filter != MipFilter::none;
+    const auto level = size_t(levels ? std::clamp<double>(lod, 0, double(texture.levels.size() - 1)) : 0);
+    const double du = kShift / texture.levels[level].width, dv = kShift / texture.levels[level].height;
+    change(TexelCause::shift_u) = slope(reading.at(u + du, v, lod), reading.at(u - du, v, lod), 2 * kShift);
+    change(TexelCause::shift_v) = slope(reading.at(u, v + dv, lod), reading.at(u, v - dv, lod), 2 * kShift);
   }
   change(TexelCause::step) = change_of_steps(
       texture, out.texel, {&change(TexelCause::shift_u), &change(TexelCause::shift_v), &change(TexelCause::level)});
-  if (texture.format != TextureFormat::srgb8_a8) return out;
-  Sampling mesa{};
-  mesa.mesa_decode = true;
-  change(TexelCause::mesa_decode) = slope(Lookup{{texture, s, mesa, nullptr}, u, v}.at(lod), out.texel, 1);
-  const Rgba codes = Lookup{{texture, s, plain, nullptr, true}, u, v}.at(lod);
-  Rgba late = codes, mesa_late = codes;
-  for (size_t c = 0; c < 3; ++c)
-    late[c] = double(srgb_decoded(codes[c])), mesa_late[c] = double(mesa_decoded(codes[c]));
-  change(TexelCause::late) = slope(late, out.texel, 1);
-  change(TexelCause::mesa_late) = slope(mesa_late, late, 1);
+  if (reading.is_srgb()) change(TexelCause::order) = slope(reading.at(u, v, lod, true), out.texel, 1);
   return out;
 }
 

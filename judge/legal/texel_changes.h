@@ -7,31 +7,35 @@
 
 namespace trueshade::oracle {
 
+/// What implementations choose, one way for a whole picture.
+struct TexelWay {
+  double rho = 0;  ///< -1: rho is the largest derivative, the least that 8.14.1 allows; 0: equation 8.11; 1: the sum of
+                   ///< the larger derivatives along u and v; log2 rho lies in proportion between
+  bool late = false;  ///< sRGB is filtered before it is decoded
+  bool mesa = false;  ///< sRGB is decoded by Mesa's polynomial
+};
+
 /// What may be otherwise in all lookups of a map, each as one number for the whole picture.
 enum class TexelCause : uint8_t {
-  gain,          ///< relative: RGB times 1 + a; of a normal map the scale of x and y
-  level,         ///< levels that log2 rho is more than equation 8.11 makes it
-  least_rho,     ///< 0: equation 8.11; 1: rho is the largest derivative, the least that 8.14.1 allows
-  half_sum_rho,  ///< the way from equation 8.11 to `sum_rho`, in levels, its first half: lookups bend on the way
-  sum_rho,       ///< its second half, to where rho is the sum of the larger derivatives along u and v
-  shift_u,       ///< texels of the level that is read
+  gain,     ///< relative: RGB times 1 + a; of a normal map the scale of x and y
+  level,    ///< levels that log2 rho is more
+  rho,      ///< TexelWay::rho is more
+  shift_u,  ///< texels of the level that is read
   shift_v,
   step,  ///< codes of 255 that each linear step between unequal texels is off on average: -0.5 where it truncates
-  late,  ///< 1: sRGB is filtered before it is decoded
-  mesa_decode,  ///< 1: sRGB is decoded by Mesa's polynomial
-  mesa_late     ///< 1: what is filtered first, too
+  order  ///< 1: sRGB is filtered before it is decoded where the way says after, or after where it says before
 };
-inline constexpr size_t kTexelCauses = 11;
+inline constexpr size_t kTexelCauses = 7;
 
 struct TexelChanges {
   using Rgba = std::array<double, 4>;
-  Rgba texel{};                             ///< nominal
+  Rgba texel{};                             ///< by the way
   std::array<Rgba, kTexelCauses> change{};  ///< of the texel, for one unit of each cause
 };
 
 /// Nothing where the nearest texel may be another one, so that the nominal one says little.
 ///   normals: the texture is a normal map
 std::optional<TexelChanges> texel_changes(const Texture& texture, const Sampler& sampler, const TexturePlace& place,
-                                          bool normals);
+                                          bool normals, const TexelWay& way);
 
 }  // namespace trueshade::oracle

@@ -23,21 +23,13 @@ struct TestedCause {
   double tolerance = 0;   ///< what the linear model may be off
 };
 
-constexpr std::string_view kLate = "late";  // how much of a map is filtered before it is decoded: 0 or 1, as all others
-
 /// In the order of TexelCause. Levels: log2 as drivers have it is 0.045 off. Shifts: weights have at least 7 bits
-/// (VK-GL-CTS). Steps: from floor to ceil.
-constexpr TestedCause kTexelTests[kTexelCauses] = {{"gain", {0, 0}, 0.003},
-                                                   {"level", {-0.06, 0.06}, 0.08},
-                                                   {"", {0, 1}},
-                                                   {"", {0, 1}},
-                                                   {"", {0, 1}},
-                                                   {"", {-0x1p-6, 0x1p-6}},
-                                                   {"", {-0x1p-6, 0x1p-6}},
-                                                   {"", {-0.6, 0.6}},
-                                                   {kLate, {0, 1}},
-                                                   {"", {0, 1}},
-                                                   {"", {0, 1}}};
+/// (VK-GL-CTS). Steps: from floor to
+/// ceil. Rho: what the search for the picture's way leaves. An order is one of two.
+constexpr TestedCause kTexelTests[kTexelCauses] = {{"gain", {0, 0}, 0.003}, {"level", {-0.06, 0.06}, 0.08},
+                                                   {"", {-1, 1}},           {"", {-0x1p-6, 0x1p-6}},
+                                                   {"", {-0x1p-6, 0x1p-6}}, {"", {-0.6, 0.6}},
+                                                   {"order", {0, 0}, 0.5}};
 constexpr TestedCause kScale{"scale", {0, 0}, 0.02};  // in place of a normal map's gain
 
 constexpr double kCode = 1.0 / 255;  // what rounding alpha and 1 - alpha to codes may be off together
@@ -54,11 +46,16 @@ struct Tested {
   std::vector<Deviation> list;
 };
 
+std::vector<CauseBounds> bounds_of(const Tested& t) {
+  std::vector<CauseBounds> bounds;
+  for (const TestedCause& c : t.causes) bounds.push_back({c.legal.low - c.tolerance, c.legal.high + c.tolerance});
+  return bounds;
+}
+
 void add_tests(const Tested& t, double deviations, bool gains_alone, std::vector<MaterialEvidence>& found) {
   constexpr size_t kLeast = 64;
   if (t.list.size() < kLeast) return;
-  std::vector<CauseBounds> bounds;
-  for (const TestedCause& c : t.causes) bounds.push_back({c.legal.low - c.tolerance, c.legal.high + c.tolerance});
+  const std::vector<CauseBounds> bounds = bounds_of(t);
   const std::vector<CauseEstimate> estimates = estimate_causes(t.list, bounds);
   for (size_t i = 0; i < estimates.size(); ++i) {
     const TestedCause& cause = t.causes[i];
@@ -67,7 +64,6 @@ void add_tests(const Tested& t, double deviations, bool gains_alone, std::vector
     e.map = t.maps[i], e.cause = cause.name, e.value = estimates[i].value, e.error = estimates[i].error;
     e.least = bounds[i].high + deviations * e.error;
     e.against = estimates[i].beyond > deviations * e.error;
-    if (e.cause == kLate && deviations * e.error > 0.5) continue;  // either
     found.push_back(std::move(e));
   }
 }
@@ -86,16 +82,6 @@ void add_all_tests(const Tested& t, double deviations, std::vector<MaterialEvide
   }
 }
 
-/// sRGB is decoded before it is filtered or after, in all maps of a picture alike: those that are not as the most are
-/// held against it.
-void hold_to_one_order(std::vector<MaterialEvidence>& found) {
-  const auto is_late = [](const MaterialEvidence& e) { return e.cause == kLate && e.value > 0.5; };
-  const auto all = std::count_if(found.begin(), found.end(), [](const auto&e) { return e.cause == kLate; }),
-             late = std::count_if(found.begin(), found.end(), is_late);
-  for (MaterialEvidence& e : found)
-    if (e.cause == kLate) e.least = 0.5, e.against = late > 0 && late < all && is_late(e) == (2 * late <= all);
-}
-
 Tested tested_maps(const Scene& scene, const std::string& stage, TextureDeviations&& d) {
   Tested t{{stage, d.material, scene.materials[d.material].name, std::string(d.plane)}, {}, {}, std::move(d.list)};
   for (const MaterialMap map : d.maps)
@@ -106,6 +92,58 @@ Tested tested_maps(const Scene& scene, const std::string& stage, TextureDeviatio
     }
   return t;
 }
+
+/// The maps of a picture, read the way that leaves least of what was given.
+class MapsByWay {
+ public:
+  MapsByWay(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
+            const StageVerdict& stage)
+      : scene_(scene), pipeline_(pipeline), profile_(profile), capture_(capture), stage_(stage) {
+    constexpr size_t kMost = 1024;  // pixels, of those that tell the way
+    const size_t stride = (stage.textured.size() + kMost - 1) / kMost;
+    for (size_t i = 0; i < stage.textured.size(); i += stride) some_.push_back(stage.textured[i]);
+  }
+
+  std::vector<Tested> found() {
+    if (some_.empty()) return {};
+    const bool has_srgb = std::any_of(scene_.textures.begin(), scene_.textures.end(),
+                                      [](const Texture& t) { return t.format == TextureFormat::srgb8_a8; });
+    for (const double rho : {0.0, -1.0, -0.5, 0.5, 1.0})
+      for (const bool late : {false, true})
+        if (!late || has_srgb) try_way({rho, late, false});
+    if (has_srgb) try_way({way_.rho, way_.late, true}), try_way({way_.rho, !way_.late, true});
+    for (double step = 0.25; step > 0.05; step /= 2)
+      for (const double to : {way_.rho - step, way_.rho + step})
+        if (std::fabs(to) <= 1) try_way({to, way_.late, way_.mesa});
+    return by(way_, stage_.textured);
+  }
+
+ private:
+  std::vector<Tested> by(const TexelWay& way, std::span<const TexturedPixel> pixels) const {
+    std::vector<Tested> tested;
+    for (TextureDeviations& d : texture_deviations(scene_, pipeline_, profile_, capture_, pixels, way))
+      tested.push_back(tested_maps(scene_, stage_.stage, std::move(d)));
+    return tested;
+  }
+
+  /// Keeps the way where it leaves less than those before.
+  void try_way(const TexelWay& way) {
+    double left = 0;
+    for (const Tested& t : by(way, some_)) left += causes_within(t.list, bounds_of(t)).left;
+    if (is_tried_ && left >= left_) return;
+    way_ = way, left_ = left, is_tried_ = true;
+  }
+
+  const Scene& scene_;
+  const Pipeline& pipeline_;
+  const Profile& profile_;
+  const Capture& capture_;
+  const StageVerdict& stage_;
+  std::vector<TexturedPixel> some_;
+  TexelWay way_;
+  double left_ = 0;
+  bool is_tried_ = false;
+};
 
 std::vector<Tested> tested_glass(const Scene& scene, const StageVerdict& stage) {
   std::map<uint32_t, Tested> by_material;
@@ -139,9 +177,9 @@ std::string MaterialEvidence::text() const {
   else if (cause == "alpha")
     std::snprintf(line, sizeof line, "%s has an alpha %+.3g off in %s, where at most %.2g is expected", read.c_str(),
                   value, plane.c_str(), least);
-  else if (cause == kLate)
-    std::snprintf(line, sizeof line, "%s is decoded %s it is filtered in %s, and others are not", read.c_str(),
-                  value > 0.5 ? "after" : "before", plane.c_str());
+  else if (cause == "order")
+    std::snprintf(line, sizeof line, "%s is filtered and decoded in another order than other maps in %s", read.c_str(),
+                  plane.c_str());
   else
     std::snprintf(line, sizeof line, "%s is read %+.3g levels off in %s, where at most %.2g is expected", read.c_str(),
                   value, plane.c_str(), least);
@@ -151,11 +189,10 @@ std::string MaterialEvidence::text() const {
 std::vector<MaterialEvidence> material_evidence(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                                                 const Capture& capture, std::span<const StageVerdict> stages,
                                                 double significance) {
+  const Profile by = resolved(profile, pipeline);
   std::vector<Tested> tested;
   for (const StageVerdict& stage : stages) {
-    for (TextureDeviations& d :
-         texture_deviations(scene, pipeline, resolved(profile, pipeline), capture, stage.textured))
-      tested.push_back(tested_maps(scene, stage.stage, std::move(d)));
+    for (Tested& t : MapsByWay(scene, pipeline, by, capture, stage).found()) tested.push_back(std::move(t));
     for (Tested& t : tested_glass(scene, stage)) tested.push_back(std::move(t));
   }
   constexpr double kTestsEach = 8;
@@ -163,7 +200,6 @@ std::vector<MaterialEvidence> material_evidence(const Scene& scene, const Pipeli
   const double deviations = std::sqrt(2 * std::log(2 * tests / significance));  // a normal distribution's, at most
   std::vector<MaterialEvidence> found;
   for (const Tested& t : tested) add_all_tests(t, deviations, found);
-  hold_to_one_order(found);
   return found;
 }
 

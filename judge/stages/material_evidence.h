@@ -18,8 +18,8 @@ struct MaterialEvidence {
   std::string name;   ///< the material's, if it has one
   std::string plane;  ///< `albedo`, `albedo.A`, `specular`, `emission`, `emission.A`, `normal`, `color`, or one channel
   std::string map{};  ///< as scene files call it, `color_map`; empty of glass
-  std::string cause{};         ///< `gain`, `scale`, `level`, `late`, `alpha`
-  double value = 0;            ///< found: relative of gains and scales, else levels, alpha; `late` 0 or 1
+  std::string cause{};         ///< `gain`, `scale`, `level`, `order`, `alpha`
+  double value = 0;            ///< found: relative of gains and scales, else levels, alpha; `order` 0 or 1
   double error = 0;            ///< its standard deviation
   double least = 0;            ///< the smallest |value| that would have been told
   bool is_of_channel = false;  ///< of one of several channels that are tested together, too

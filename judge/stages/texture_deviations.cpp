@@ -7,7 +7,6 @@
 
 #include "core/threads/parallel_for.h"
 #include "judge/legal/surface_values.h"
-#include "judge/legal/texel_changes.h"
 #include "judge/stages/tally.h"
 
 namespace trueshade::oracle {
@@ -43,8 +42,9 @@ struct ChangedTexels {
 /// Makes deviations of pixels.
 class TextureSampler {
  public:
-  TextureSampler(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture)
-      : projector_(scene, pipeline, profile, capture.drawn_at) {
+  TextureSampler(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
+                 const TexelWay& way)
+      : projector_(scene, pipeline, profile, capture.drawn_at), way_(way) {
     for (size_t g = 0; g < kGroupCount; ++g) {
       views_[g] = plane_of(capture, pipeline, kGroups[g].plane);
       if (kGroups[g].first + kGroups[g].count > views_[g].channels && kGroups[g].count == 1) views_[g] = {};
@@ -62,6 +62,7 @@ class TextureSampler {
                    std::span<const Values> changed, std::vector<Deviation>& out) const;
 
   Projector projector_;
+  const TexelWay way_;
   std::array<PlaneView, kGroupCount> views_;
 };
 
@@ -121,7 +122,7 @@ std::optional<ChangedTexels> TextureSampler::texels_of(const Material& material,
     if (!slots[map]->used()) continue;
     changes[map] =
         texel_changes(projector_.scene().textures[size_t(slots[map]->texture)], slots[map]->sampler,
-                      map_sample(projector_, *slots[map], piece, point, values, x, y).nominal, map == kNormalMap);
+                      map_sample(projector_, *slots[map], piece, point, values, x, y).nominal, map == kNormalMap, way_);
     if (!changes[map]) return std::nullopt;
     set(out.nominal, map, changes[map]->texel);
   }
@@ -160,8 +161,9 @@ void TextureSampler::add(const TexturedPixel& pixel, TriangleForms& forms, Devia
 }  // namespace
 
 std::vector<TextureDeviations> texture_deviations(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
-                                                  const Capture& capture, std::span<const TexturedPixel> textured) {
-  const TextureSampler sampler(scene, pipeline, profile, capture);
+                                                  const Capture& capture, std::span<const TexturedPixel> textured,
+                                                  const TexelWay& way) {
+  const TextureSampler sampler(scene, pipeline, profile, capture, way);
   constexpr size_t kChunk = 256;
   const size_t chunks = (textured.size() + kChunk - 1) / kChunk;
   std::vector<Deviations> parts(chunks);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "judge/legal/surface_values.h"
+#include "judge/legal/texel_changes.h"
 #include "judge/stages/cause_fit.h"
 #include "judge/stages/verdict.h"
 #include "oracle/capture.h"
@@ -23,7 +24,9 @@ struct TextureDeviations {
 
 /// Pixels whose nearest texel is in doubt, and values that a format clamps, are passed over.
 ///   profile: resolved()
+///   way: of all lookups
 std::vector<TextureDeviations> texture_deviations(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
-                                                  const Capture& capture, std::span<const TexturedPixel> textured);
+                                                  const Capture& capture, std::span<const TexturedPixel> textured,
+                                                  const TexelWay& way);
 
 }  // namespace trueshade::oracle
