@@ -32,7 +32,8 @@ VkBorderColor border_of(const Sampler& s) {
   if (s.border == glm::vec4(0.0f)) return VK_BORDER_COLOR_FLOAT_TRANSPARENT_BLACK;
   if (s.border == glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)) return VK_BORDER_COLOR_FLOAT_OPAQUE_BLACK;
   if (s.border == glm::vec4(1.0f)) return VK_BORDER_COLOR_FLOAT_OPAQUE_WHITE;
-  throw no_device("a texture's border is no colour that Vulkan has");
+  throw Error(ErrorKind::no_gl_driver, "Vulkan", "a texture's border is no colour that Vulkan has",
+              "make it 0 0 0 0, 0 0 0 1 or 1 1 1 1, or name an OpenGL driver: --driver llvmpipe");
 }
 
 }  // namespace
