@@ -20,6 +20,9 @@ trueshade_slow(20
   "judge:What llvmpipe makes of textures is legal: every format, wrap and filter, and masks"
   "raster:All built-in scenes show what Embree's rays hit at 800 x 800, away from edges and depth ties")
 trueshade_slow(10
+  "judge:A software device of Vulkan is not convicted under states drawn at random"
+  "judge:Our own frames are not convicted under states drawn at random"
+  "judge:llvmpipe is not convicted under states drawn at random"
   "judge:What llvmpipe makes of both sides, mirrored instances and further texture coordinates is legal"
   "cli:frames take what is predicted, within a fifth, and are refused where that is over the cap"
   "docs: what docs/tutorial.md shows runs"

@@ -82,7 +82,7 @@ bool is_kept(const GeometryState& state, double clear, PossibleSurface& surface,
   if (!passes(surface.low)) return false;
   if (!passes(surface.high) || !ordered) {
     // How depths lie in their range is the driver's secret: one rule may take all of them to the same side.
-    surface.certain = false, surface.chance_other = std::max(surface.chance_other, 0.5f);
+    surface.certain = false, surface.chance_other = 1;
     surface.nominal = surface.nominal && passes(surface.middle);
   }
   if (surface.certain) limit = std::min(limit, surface.high);

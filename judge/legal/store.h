@@ -12,6 +12,8 @@ struct Range {
   double value = 0, low = 0, high = 0;
 };
 
+inline constexpr Range kAnyValue{0, -HUGE_VAL, HUGE_VAL};
+
 inline Range range_of(const Bounded& b) { return {b.value, b.low(), b.high()}; }
 
 /// Stored values of one channel, as they read back (unorm: in codes, 0..255): everything from low to high.

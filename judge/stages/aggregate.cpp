@@ -76,7 +76,9 @@ AggregateTest store_bias(std::span<const Group> groups) {
     found += g.signed_share;
     const double most = std::min(1.0, 2 * g.chance);
     if (g.ruled_out) continue;
-    (g.side < 0 ? low : high) += g.side < 0 ? -most : most;
+    // A range that reaches beyond the nominal code on one side alone is at most half beyond it.
+    if (g.side < 0 || g.chance > 0.5) low -= most;
+    if (g.side >= 0 || g.chance > 0.5) high += most;
   }
   const double chance = found > 0 ? chance_of_at_least(found, high) : chance_of_at_least(-found, -low);
   return {"store bias", found, low, high, std::min(1.0, 2 * chance)};

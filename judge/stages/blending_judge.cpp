@@ -332,7 +332,7 @@ void BlendingJudge::judge(int x, int y, int light, const Image* before, const Im
     Match m;
     if (fits(list[i], view, x, y, m)) {
       m.choices.clear();
-      if (i == 0) choose(x, y, from, known, blend, view, m);
+      if (list.size() == 1) choose(x, y, from, known, blend, view, m);  // else another way may be the one that was gone
       const PixelClass c =
           list[i].pixel_class == PixelClass::exact && m.second ? PixelClass::store_2 : list[i].pixel_class;
       return keep(x, y, c, m, light);

@@ -87,8 +87,8 @@ class BlendingJudge {
   void may_tie(int x, int y) {
     for (const TiedSurface& t : tied_->at(x, y)) {
       if (t.certain) continue;
-      pixels_[at(x, y)].same *= 0.5;
-      rows_[size_t(y)].surface_choices.push_back({uint64_t(at(x, y)), uint32_t(at(x, y)), 0.5f});
+      pixels_[at(x, y)].same *= 1 - double(t.chance);
+      rows_[size_t(y)].surface_choices.push_back({uint64_t(at(x, y)), uint32_t(at(x, y)), t.chance});
     }
   }
 

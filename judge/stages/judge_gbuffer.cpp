@@ -31,14 +31,17 @@ double share_below(double low, double high, double x) {
 }
 
 /// Predicted probability that `other` is in front of the nominal surface, though it is not where both are in the middle
-/// of their ranges: that of two numbers spread evenly over these. Where the middle of one lies within the other's, one
-/// and the same error may bring all such pixels to the same side, and no share of them is told from another.
+/// of their ranges: that of two numbers spread evenly over these. 1 where one has a range so much wider that it says
+/// little of where its depths are: one and the same error may bring all of them to the same side.
 double chance_before(const PossibleSurface& nominal, const PossibleSurface& other) {
+  constexpr double kMuchWider = 4;
   if (other.middle < nominal.middle) return 1;
   if (other.low > nominal.high) return 0;
-  if (other.low <= nominal.middle || nominal.high >= other.middle) return 0.5;
-  return (share_below(other.low, other.high, nominal.high) - share_below(other.low, other.high, nominal.low)) /
-         (nominal.high - nominal.low);
+  const double width = nominal.high - nominal.low, others = other.high - other.low;
+  const bool within = other.low <= nominal.middle || nominal.high >= other.middle;
+  if (within && std::max(width, others) > kMuchWider * std::min(width, others)) return 1;
+  if (within) return 0.5;
+  return (share_below(other.low, other.high, nominal.high) - share_below(other.low, other.high, nominal.low)) / width;
 }
 
 /// Predicted probability that not the nominal surface is seen: some edge is on the other side of the sample, or the

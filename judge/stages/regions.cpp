@@ -18,8 +18,8 @@ struct Cut {
   int width, height;  ///< pixels
 };
 
-/// What the choices of a region came to. `open`: of those that are expected, what may go either way, all of it, as depths
-/// that tie do: how much of that a region has says nothing of another.
+/// What the choices of a region came to. `open`: of those that are expected, what is likelier to go the other way than
+/// not, as depths of a wide range are: how much of that a region has says nothing of another.
 struct Sums {
   double other = 0, expected = 0, open = 0;
 };
@@ -50,7 +50,7 @@ std::vector<Sums> sums_by_region(const std::vector<PixelChoice>& by_group, const
   const auto close = [](const Open& o, Sums& s) {
     if (o.count == 0) return;
     const double expected = std::min(1.0, 2 * o.chance / o.count);
-    s.other += o.other / o.count, s.expected += expected, s.open += expected == 1 ? 1 : 0;
+    s.other += o.other / o.count, s.expected += expected, s.open += o.chance / o.count > 0.5 ? 1 : 0;
   };
   for (const PixelChoice& c : by_group) {
     const size_t region = region_of(c);

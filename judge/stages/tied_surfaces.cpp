@@ -42,7 +42,9 @@ class TieFinder {
       if (depth.low > left.high || depth.high < left.low) continue;
       const bool same = (left.low == left.high && depth.low == left.low && depth.high == left.low) ||
                         (seen != nullptr && same_vertices(*seen, c));
-      list.push_back({surface_of(c, x + 0.5, y + 0.5), same && c.certain, seen != nullptr && &c < seen});
+      const bool is_at_end = depth.low <= 0 || depth.high >= 1 || left.low <= 0 || left.high >= 1;
+      list.push_back(
+          {surface_of(c, x + 0.5, y + 0.5), same && c.certain, seen != nullptr && &c < seen, is_at_end ? 1.0f : 0.5f});
     }
     return list;
   }

@@ -15,6 +15,7 @@ struct TiedSurface {
   ShadedSurface surface;  ///< what its fragment's attributes may be
   bool certain = false;   ///< covers the sample, with the very depth that the visible surface or the clear value left
   bool before = false;    ///< submitted before the visible one
+  float chance = 0.5f;    ///< of what is not certain, that it ties; 1: all such may, as where an offset ends at a limit
 };
 
 /// Of every pixel, in order of submission; y from the top. Where nothing is visible: what may have the clear depth. The

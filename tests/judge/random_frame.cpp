@@ -217,6 +217,7 @@ void keep_uncut(RandomFrame& frame) {
                    [](const PlaneState& plane) { return plane.interpolation == Interpolation::noperspective; }))
     return;
   frame.scene.camera.near = 0.1f, frame.scene.camera.far = 1000.0f;
+  frame.scene.camera.eye.z = 16.0f;  // from where all of it is in view
   std::erase_if(frame.scene.instances, [](const Instance& i) {
     return std::max(glm::length(i.world_from_object[0]), glm::length(i.world_from_object[2])) > kLargestObject;
   });
