@@ -144,6 +144,22 @@ void turn_light(Light& l, const Vector& v) {
   if (length > 0) l.direction = d * (1 / length);
 }
 void color_light(Light& l, const Vector& v) { l.color *= vec3_of(v); }
+void move_lights(LightPass& p, const Vector& v) {
+  for (Light& l : p.lights) l.position += vec3_of(v);
+}
+void color_lights(LightPass& p, const Vector& v) {
+  for (Light& l : p.lights) l.color *= vec3_of(v);
+}
+void move_viewer(LightPass& p, const Vector& v) { p.camera.eye += vec3_of(v); }
+void positions_from_eye(LightPass& p, double) {
+  for (Light& l : p.lights) l.position -= p.camera.eye;
+}
+/// Of so many lights one.
+void thin_out(LightPass& p, double step) {
+  std::vector<Light> left;
+  for (size_t i = 0; i < p.lights.size(); i += size_t(step)) left.push_back(p.lights[i]);
+  p.lights = std::move(left);
+}
 bool has_direction(const Light& l) { return l.type == LightType::directional || l.type == LightType::spot; }
 /// Numbers of the light, times those of the vector.
 void scale_reach(Light& l, const Vector& v) { l.range *= float(v[0]); }
@@ -163,6 +179,7 @@ bool has_ambient(const LightPass& p) {
 }
 bool several(const LightPass& p) { return p.lights.size() > 1; }
 bool shines_local(const LightPass& p) { return shines(p); }
+bool shines_locally(const LightPass& p) { return shines(p) && p.pipeline.light_model.viewer == Viewer::local; }
 bool sums_once(const LightPass& p) {
   return of_small_floats(p) ? false : several(p) && !blends_lights(p.pipeline.strategy);
 }
@@ -174,6 +191,7 @@ constexpr double kPlaneFactors[] = {0.1, 0.2, 0.5, 0.8, 1.25, 2, 5, 10};
 constexpr double kExponents[] = {0.25, 0.5, 0.97, 1.03, 2, 4};
 constexpr double kFalloffs[] = {0, 1, 2, 3, 4, 5};
 constexpr double kNormalCodes[] = {255, 1023};
+constexpr double kStrides[] = {2, 3, 4};
 constexpr double kTiles[] = {0, 1, 2, 3, 4, 5, 6, 7};
 
 std::string falloff_name(double f) {
@@ -339,6 +357,28 @@ constexpr PictureFault kFaults[] = {
     {"light-cones", "all cones are %s times as wide as they should be", scale_cones, nullptr, has_cones, kSmooth,
      kSpecularFactors},
     {"light-directions-turned", "the lights' directions have the wrong sign", turn_directions, nullptr, has_directions},
+    {.name = "lights-moved",
+     .text = "all lights are moved by %v",
+     .can = has_lamps,
+     .search = Search::vector,
+     .doubt = kVectorCost,
+     .by_vector = move_lights},
+    {.name = "lights-colored",
+     .text = "the colours of all lights are %v times what they should be",
+     .can = has_lamps,
+     .search = Search::vector,
+     .doubt = kVectorCost,
+     .start = 1,
+     .by_vector = color_lights},
+    {.name = "lighting-eye",
+     .text = "the viewer of highlights is moved by %v",
+     .can = shines_locally,
+     .search = Search::vector,
+     .doubt = kVectorCost,
+     .by_vector = move_viewer},
+    {"light-positions-from-eye", "the lights' positions are relative to the eye", positions_from_eye, nullptr,
+     has_lamps},
+    {"light-stride", "of %s lights one is drawn", thin_out, nullptr, several, kOneOf, kStrides},
     {"light-positions-half", "the lights' positions are rounded to half floats", positions_as_halves, nullptr,
      has_lamps},
     {"light-positions-view", "the lights' positions are in view space", positions_in_view, nullptr, has_lamps},

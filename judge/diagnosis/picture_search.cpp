@@ -19,7 +19,7 @@ constexpr double kPairGain = 0.55;        ///< of a single fault's cost, that tw
 constexpr double kLeastGain = 0.02;       ///< and that a second fault must earn
 constexpr double kLeastChanged = 8;       ///< pixels below which there is nothing to explain
 constexpr double kNearOne = 0.015;        ///< factors that change values by about a code
-constexpr double kLeftByFew = 0.35;       ///< of what disagrees, that such a factor may leave
+constexpr double kLeftByFew = 0.25;       ///< of what disagrees, that such a factor may leave
 constexpr size_t kFirstOfPairs = 5, kFinalists = 8;
 
 struct Candidate {
@@ -179,6 +179,7 @@ Finding PictureSearch::finding(std::span<const NamedFault> faults, size_t which)
   f.explained = together.found.explained / changed_;
   f.contradicted = same_ > 0 ? together.found.contradicted / same_ : 0;
   f.together = which > 0;
+  f.fitted = fault.fault->search != Search::none && fault.fault->search != Search::one_of;
   f.alone = f.together ? judged({fault}, true).found.explained / changed_ : f.explained;
   f.proof = proof(up_to_it, before);
   if (f.proof.plane.empty() && which == 0 && faults.size() > 1) f.proof = proof(faults, faults.subspan(1));

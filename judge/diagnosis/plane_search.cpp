@@ -309,7 +309,7 @@ Finding PlaneSearch::finding(std::span<const NamedPlaneFault> faults, size_t whi
   f.plane = kPlaneNames[size_t(own)];
   f.changed = uint64_t(std::llround(found.changed));
   f.explained = found.explained, f.contradicted = found.contradicted;
-  f.together = which > 0;
+  f.together = which > 0, f.fitted = fault.fault->is_estimate() || fault.fault->averages;
   f.alone = f.together ? share(supposed({&fault, 1}), own).explained : f.explained;
   f.proof = proof(up_to_it, own, which > 0 ? &before : nullptr);
   if (f.proof.plane.empty() && which == 0 && faults.size() > 1) {
