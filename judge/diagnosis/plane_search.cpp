@@ -180,10 +180,13 @@ std::vector<FaultParameter> PlaneSearch::parameters(const PlaneSupposition& base
 
 std::vector<Candidate> PlaneSearch::beside(const PlaneSupposition& base, bool redraw) const {
   std::vector<Candidate> candidates;
+  const auto leaves_nothing = [&](const Candidate& c) { return c.found.cost < 1e-3 * cost_few_; };
   const auto tries = [&](std::span<const PlaneFault> table) {
     for (const PlaneFault& fault : table) {
       const auto same = [&](const NamedPlaneFault& f) { return f.fault == &fault; };
       if (!bears_on(fault) || std::any_of(base.faults.begin(), base.faults.end(), same)) continue;
+      // Where nothing is left to explain no fit can do better.
+      if (fault.fit != Fit::none && std::any_of(candidates.begin(), candidates.end(), leaves_nothing)) continue;
       std::optional<Candidate> best;
       for (const FaultParameter& parameter : parameters(base, fault)) {
         std::optional<PlaneSupposition> s = planes_.with(base, {&fault, parameter});
