@@ -286,7 +286,10 @@ std::string validation_text(const Validation& v) {
   const bool explained = !v.findings.empty() && !v.findings[0].partial;
   if (v.is_diagnosed && !explained) lines += verdict_row("looks like", "no fault that is known");
   for (const oracle::Finding& f : v.findings)
-    lines += verdict_row(f.together ? "and" : f.partial ? "may be part" : "looks like", finding_line(f)) +
+    lines += verdict_row(f.together  ? "and"
+                         : f.partial ? "may be part"
+                                     : "looks like",
+                         finding_line(f)) +
              verdict_row("", proof_line(f)) + verdict_row("", "try: " + f.command);
   return lines;
 }

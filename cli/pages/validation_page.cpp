@@ -178,8 +178,12 @@ std::string diagnosis_part(const Validation& v) {
   if (v.findings.empty()) return "";
   std::string html = "<h2>What it looks like</h2>\n";
   for (const oracle::Finding& f : v.findings)
-    html += "<p>" + std::string(f.together ? "And " : f.partial ? "May be part of it: " : "") + escaped(finding_line(f)) + ".<br><span class=quiet>" +
-            escaped(proof_line(f)) + ".</span></p>\n<div class=command><code>" + escaped(f.command) + "</code></div>\n";
+    html += "<p>" +
+            std::string(f.together  ? "And "
+                        : f.partial ? "May be part of it: "
+                                    : "") +
+            escaped(finding_line(f)) + ".<br><span class=quiet>" + escaped(proof_line(f)) +
+            ".</span></p>\n<div class=command><code>" + escaped(f.command) + "</code></div>\n";
   return html;
 }
 

@@ -78,15 +78,17 @@ void add_glass(std::vector<Finding> glass, std::vector<Finding>& findings) {
   findings.insert(first ? findings.begin() : findings.end(), glass.begin(), glass.end());
 }
 
-/// A fault that leaves most of what is wrong unexplained is no explanation: it comes behind those that are. Of two
-/// faults at once their share together counts.
+/// What was looked for: a fault that leaves most of what is wrong unexplained is no explanation: it comes behind those
+/// that are. Of two faults at once their share together counts.
 std::vector<Finding> partial_last(std::vector<Finding> findings) {
-  constexpr double kExplanation = 0.5;
+  constexpr double kExplanation = 0.5, kOfFitted = 0.75;
   std::vector<Finding> partial, whole;
   for (size_t from = 0; from < findings.size();) {
     size_t end = from + 1;
     while (end < findings.size() && findings[end].together) ++end;
-    const bool is_partial = findings[end - 1].explained < kExplanation;
+    const bool fitted = std::any_of(findings.begin() + ptrdiff_t(from), findings.begin() + ptrdiff_t(end),
+                                    [](const Finding& f) { return f.fitted; });
+    const bool is_partial = findings[end - 1].explained < (fitted ? kOfFitted : kExplanation);
     for (; from < end; ++from) {
       findings[from].partial = is_partial;
       (is_partial ? partial : whole).push_back(std::move(findings[from]));
@@ -127,7 +129,8 @@ std::vector<Finding> diagnose(const Scene& scene, const Pipeline& asked, const P
       add_glass(glass_findings(scene, pipeline, profile, capture, over != nullptr ? *over : *lit, *picture, only.glass),
                 findings);
   }
-  return partial_last(merged(std::move(planes.findings), std::move(findings), most));
+  findings = merged(std::move(planes.findings), std::move(findings), most);
+  return supposed.empty() ? partial_last(std::move(findings)) : findings;
 }
 
 std::vector<KnownFault> known_faults() {

@@ -70,7 +70,9 @@ class ObjectFit {
   ObjectFit(const PlaneEvidence& evidence, uint32_t object) : evidence_(evidence), object_(object) {
     const double number = object + 1.0;
     for (const EvidentPixel& p : evidence.pixels)
-      if (p.given.object == number || (p.expected.covered && p.expected.object == number)) pixels_.push_back(&p);
+      if (p.given.object == number || (p.expected.covered && p.expected.object == number) ||
+          (p.given.object < 0 && p.wrong))
+        pixels_.push_back(&p);
     pixels_ = thinned(pixels_, kMostOfObject);
     for (const EvidentPixel* p : pixels_) places_.push_back(p->at);
     extent_ = extent_of(evidence);
@@ -90,7 +92,8 @@ class ObjectFit {
     for (size_t i = 0; i < pixels_.size(); ++i) {
       const PlaneValues& drawn = sketch_->pixels()[i];
       const EvidentPixel& p = *pixels_[i];
-      const bool is_given = p.given.object < 0 ? p.given.covered : p.given.object == number;
+      // Without identifiers what it does not cover may be anything.
+      const bool is_given = p.given.object < 0 ? p.given.covered && drawn.covered : p.given.object == number;
       // Something else before it says nothing.
       const bool hidden = drawn.covered && !is_given && p.given.covered && p.given.depth <= drawn.depth;
       if (hidden || (!drawn.covered && !is_given)) {

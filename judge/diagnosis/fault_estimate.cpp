@@ -6,6 +6,7 @@
 #include <map>
 
 #include "judge/diagnosis/changed_light.h"
+#include "judge/diagnosis/least_squares.h"
 
 namespace trueshade::oracle {
 
@@ -25,6 +26,7 @@ class Estimate {
   double smooth() const;
   std::vector<double> lights(double sign) const;
   std::vector<double> counts(bool at_pixel) const;
+  std::vector<FaultParameter> vectors() const;
 
  private:
   PictureSupposition with(double parameter) const {
@@ -194,6 +196,29 @@ std::vector<double> Estimate::lights(double sign) const {
   return best;
 }
 
+/// Differences are of values by the steps of their format: beyond one, or beyond many.
+std::vector<FaultParameter> Estimate::vectors() const {
+  constexpr double kScales[] = {64, 8, 2, 0.5};
+  const Residuals residuals = [&](const Triple3& vector) {
+    PictureSupposition s = supposed_;
+    s.suppose(fault_, FaultParameter(0, vector));
+    std::vector<double> left;
+    for (size_t i = 0; i < pixels_.size(); ++i) {
+      const SampledPixel& p = pixels_[i];
+      const PictureCase::Prediction now = picture_.predicted(s, p.x, p.y);
+      const Color given = picture_.given_value(p.x, p.y);
+      for (int k = 0; k < std::min(3, picture_.channels()); ++k)
+        left.push_back((now.value[size_t(k)] - given[size_t(k)]) / picture_.step_at(given[size_t(k)], k));
+    }
+    return left;
+  };
+  const Triple3 start = {fault_.start, fault_.start, fault_.start};
+  const Triple3 vector = fitted({residuals, fault_.numbers, 1e-3, kScales}, start);
+  const auto is = [](double v) { return std::isfinite(v) && std::fabs(v) < 1e6; };
+  if (vector == start || !std::all_of(vector.begin(), vector.end(), is)) return {};
+  return {FaultParameter(0, vector)};
+}
+
 /// The number that people would write, of those from `low` to `high`.
 double round_number(uint32_t low, uint32_t high) {
   for (uint32_t unit = 1u << 16; unit > 1; unit /= 2)
@@ -273,6 +298,8 @@ std::vector<FaultParameter> likely_parameters(const PictureCase& picture, const 
       return numbers(estimate.counts(false));
     case Search::count_at_pixel:
       return numbers(estimate.counts(true));
+    case Search::vector:
+      return estimate.vectors();
     case Search::one_light:
       return changed_lights(picture, supposed, fault, pixels, off_if_right);
   }

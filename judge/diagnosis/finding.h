@@ -31,7 +31,8 @@ struct Finding {
   double contradicted = 0;  ///< of the pixels that were as predicted, the share that the fault predicts otherwise
   bool together = false;    ///< the second of two faults: `changed`, `explained` and `contradicted` are of both
   double alone = 0;         ///< the share that it explains without the other; `explained`, unless `together`
-  bool partial = false;     ///< less than half of what is wrong is explained: it may be part of it
+  bool fitted = false;      ///< its numbers are estimates, so that it can explain much by chance
+  bool partial = false;     ///< it leaves so much unexplained that it is no explanation: it may be part of it
   Proof proof;
   std::string command;  ///< that shows it: of who asked; diagnose() leaves it empty
 };

@@ -144,6 +144,22 @@ void turn_light(Light& l, const Vector& v) {
   if (length > 0) l.direction = d * (1 / length);
 }
 void color_light(Light& l, const Vector& v) { l.color *= vec3_of(v); }
+void move_lights(LightPass& p, const Vector& v) {
+  for (Light& l : p.lights) l.position += vec3_of(v);
+}
+void color_lights(LightPass& p, const Vector& v) {
+  for (Light& l : p.lights) l.color *= vec3_of(v);
+}
+void move_viewer(LightPass& p, const Vector& v) { p.camera.eye += vec3_of(v); }
+void positions_from_eye(LightPass& p, double) {
+  for (Light& l : p.lights) l.position -= p.camera.eye;
+}
+/// Of so many lights one.
+void thin_out(LightPass& p, double step) {
+  std::vector<Light> left;
+  for (size_t i = 0; i < p.lights.size(); i += size_t(step)) left.push_back(p.lights[i]);
+  p.lights = std::move(left);
+}
 bool has_direction(const Light& l) { return l.type == LightType::directional || l.type == LightType::spot; }
 /// Numbers of the light, times those of the vector.
 void scale_reach(Light& l, const Vector& v) { l.range *= float(v[0]); }
@@ -163,6 +179,7 @@ bool has_ambient(const LightPass& p) {
 }
 bool several(const LightPass& p) { return p.lights.size() > 1; }
 bool shines_local(const LightPass& p) { return shines(p); }
+bool shines_locally(const LightPass& p) { return shines(p) && p.pipeline.light_model.viewer == Viewer::local; }
 bool sums_once(const LightPass& p) {
   return of_small_floats(p) ? false : several(p) && !blends_lights(p.pipeline.strategy);
 }
@@ -174,6 +191,7 @@ constexpr double kPlaneFactors[] = {0.1, 0.2, 0.5, 0.8, 1.25, 2, 5, 10};
 constexpr double kExponents[] = {0.25, 0.5, 0.97, 1.03, 2, 4};
 constexpr double kFalloffs[] = {0, 1, 2, 3, 4, 5};
 constexpr double kNormalCodes[] = {255, 1023};
+constexpr double kStrides[] = {2, 3, 4};
 constexpr double kTiles[] = {0, 1, 2, 3, 4, 5, 6, 7};
 
 std::string falloff_name(double f) {
@@ -213,7 +231,32 @@ constexpr Vector kCones[] = {{0.5, 1, 1}, {0.75, 1, 1}, {0.9, 0.9, 1}, {1.1, 1.1
 constexpr Vector kExponents1[] = {{0.5, 1, 1}, {2, 1, 1}, {4, 1, 1}};
 constexpr Vector kFalloffs1[] = {{0.5, 0.5, 1}, {2, 2, 1}, {0.5, 1, 1}, {2, 1, 1}, {1, 0.5, 1}, {1, 2, 1}};
 
-constexpr double kNumberCost = 0.004, kVectorCost = 3 * kNumberCost;  ///< what numbers more than one must earn
+constexpr double kNumberCost = 0.004;  ///< what a number more than one must earn
+
+constexpr PictureFault of_one(std::string_view name, std::string_view text, bool (*can)(const LightPass&),
+                              void (*change)(Light&, const Vector&), bool (*of_light)(const Light&), int numbers = 3,
+                              double start = 0, std::span<const Vector> from = {}) {
+  return {.name = name,
+          .text = text,
+          .can = can,
+          .search = Search::one_light,
+          .doubt = numbers * kNumberCost,
+          .one_light = change,
+          .of_light = of_light,
+          .start = start,
+          .numbers = numbers,
+          .from = from};
+}
+constexpr PictureFault of_all(std::string_view name, std::string_view text, bool (*can)(const LightPass&),
+                              void (*change)(LightPass&, const Vector&), double start = 0) {
+  return {.name = name,
+          .text = text,
+          .can = can,
+          .search = Search::vector,
+          .doubt = 3 * kNumberCost,
+          .start = start,
+          .by_vector = change};
+}
 
 // name, text, light, value, can, search, starts, move, doubt, reach
 constexpr PictureFault kFaults[] = {
@@ -270,68 +313,18 @@ constexpr PictureFault kFaults[] = {
     {"light-count", "only the first %s lights are drawn", at_most, nullptr, several, Search::count},
     {"light-count-pixel", "only the first %s lights in range of a pixel are drawn", at_most_here, nullptr, several,
      Search::count_at_pixel},
-    {.name = "light-moved",
-     .text = "light %s is moved by %v",
-     .can = has_lamps,
-     .search = Search::one_light,
-     .doubt = kVectorCost,
-     .one_light = move_light,
-     .of_light = lamp},
-    {.name = "light-turned",
-     .text = "%v is added to the direction of light %s",
-     .can = has_directions,
-     .search = Search::one_light,
-     .doubt = kVectorCost,
-     .one_light = turn_light,
-     .of_light = has_direction},
-    {.name = "light-colored",
-     .text = "the colour of light %s is %v times what it should be",
-     .can = several,
-     .search = Search::one_light,
-     .doubt = kVectorCost,
-     .one_light = color_light,
-     .of_light = any_light,
-     .start = 1},
-    {.name = "light-reach",
-     .text = "the range of light %s is %v times what it should be",
-     .can = has_range,
-     .search = Search::one_light,
-     .doubt = kNumberCost,
-     .one_light = scale_reach,
-     .of_light = reaches,
-     .start = 1,
-     .numbers = 1,
-     .from = kReaches},
-    {.name = "light-cone",
-     .text = "the cone and the penumbra of light %s are %v times as wide as they should be",
-     .can = has_cones,
-     .search = Search::one_light,
-     .doubt = 2 * kNumberCost,
-     .one_light = scale_cone,
-     .of_light = spot,
-     .start = 1,
-     .numbers = 2,
-     .from = kCones},
-    {.name = "light-exponent",
-     .text = "the exponent of the cone of light %s is %v times what it should be",
-     .can = has_cones,
-     .search = Search::one_light,
-     .doubt = kNumberCost,
-     .one_light = scale_exponent,
-     .of_light = spot,
-     .start = 1,
-     .numbers = 1,
-     .from = kExponents1},
-    {.name = "light-falloff",
-     .text = "the linear and the quadratic attenuation of light %s are %v times what they should be",
-     .can = has_attenuation,
-     .search = Search::one_light,
-     .doubt = 2 * kNumberCost,
-     .one_light = scale_falloff,
-     .of_light = lamp,
-     .start = 1,
-     .numbers = 2,
-     .from = kFalloffs1},
+    of_one("light-moved", "light %s is moved by %v", has_lamps, move_light, lamp),
+    of_one("light-turned", "%v is added to the direction of light %s", has_directions, turn_light, has_direction),
+    of_one("light-colored", "the colour of light %s is %v times what it should be", several, color_light, any_light, 3,
+           1),
+    of_one("light-reach", "the range of light %s is %v times what it should be", has_range, scale_reach, reaches, 1, 1,
+           kReaches),
+    of_one("light-cone", "the cone and the penumbra of light %s are %v times as wide as they should be", has_cones,
+           scale_cone, spot, 2, 1, kCones),
+    of_one("light-exponent", "the exponent of the cone of light %s is %v times what it should be", has_cones,
+           scale_exponent, spot, 1, 1, kExponents1),
+    of_one("light-falloff", "the linear and the quadratic attenuation of light %s are %v times what they should be",
+           has_attenuation, scale_falloff, lamp, 2, 1, kFalloffs1),
     {"lighting-near", "positions are rebuilt from depths with a near plane %s times as far as it is", scale_near,
      nullptr, rebuilds_positions, kSmooth, kPlaneFactors},
     {"lighting-far", "positions are rebuilt from depths with a far plane %s times as far as it is", scale_far, nullptr,
@@ -339,6 +332,12 @@ constexpr PictureFault kFaults[] = {
     {"light-cones", "all cones are %s times as wide as they should be", scale_cones, nullptr, has_cones, kSmooth,
      kSpecularFactors},
     {"light-directions-turned", "the lights' directions have the wrong sign", turn_directions, nullptr, has_directions},
+    of_all("lights-moved", "all lights are moved by %v", has_lamps, move_lights),
+    of_all("lights-colored", "the colours of all lights are %v times what they should be", has_lamps, color_lights, 1),
+    of_all("lighting-eye", "the viewer of highlights is moved by %v", shines_locally, move_viewer),
+    {"light-positions-from-eye", "the lights' positions are relative to the eye", positions_from_eye, nullptr,
+     has_lamps},
+    {"light-stride", "of %s lights one is drawn", thin_out, nullptr, several, kOneOf, kStrides},
     {"light-positions-half", "the lights' positions are rounded to half floats", positions_as_halves, nullptr,
      has_lamps},
     {"light-positions-view", "the lights' positions are in view space", positions_in_view, nullptr, has_lamps},

@@ -192,6 +192,9 @@ Suspects that_lack_triangles(const PlaneEvidence& e) {
     all.push_back(P(double(object), {first, last - first + 1, 0}));
     all.push_back(P(double(object), {first, count - first, 0}));
     all.push_back(P(double(object), {0, last + 1, 0}));
+    // Those before it may be hidden.
+    for (const double from : {first - 1, first - 2, std::floor(count / 2), std::floor(count * 3 / 4)})
+      if (from > 0 && from <= first) all.push_back(P(double(object), {from, count - from, 0}));
   }
   return all;
 }

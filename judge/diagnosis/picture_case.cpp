@@ -61,6 +61,7 @@ std::vector<SampledPixel> sampled_pixels(const StageVerdict& stage, const std::a
 void PictureSupposition::suppose(const PictureFault& fault, const FaultParameter& given) {
   const double parameter = given.number;
   if (fault.one_light != nullptr) fault.one_light(pass.lights[size_t(parameter)], given.vector), known = nullptr;
+  if (fault.by_vector != nullptr) fault.by_vector(pass, given.vector), known = nullptr;
   if (fault.light != nullptr) fault.light(pass, parameter);
   if (fault.light != nullptr || fault.tile > 0) known = nullptr;
   if (fault.value != nullptr) steps.push_back({fault.value, parameter});

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kFactors[] = {0.5, 0.9, 0.99, 1.01, 1.1, 2};
 constexpr double kGammas[] = {1 / 2.4, 1 / 2.2, 1 / 1.8, 1.8, 2.2, 2.4};
+constexpr double kCeilings[] = {0.25, 0.5, 0.75, 0.9};
 constexpr double kBits[] = {3, 4, 5, 6, 7};
 constexpr double kShifts[] = {-1, 1, -2, 2, -3, 3, -4, 4};
 
@@ -77,6 +78,9 @@ double grey_of(const Color& c) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 *
 void saturate(Color& c, double f, int, int) {
   each_of_rgb(c, [f, grey = grey_of(c)](double v) { return grey + f * (v - grey); });
 }
+void cut_off(Color& c, double most, int, int) {
+  each_of_rgb(c, [most](double v) { return std::min(v, most); });
+}
 void make_grey(Color& c, double, int, int) {
   each_of_rgb(c, [grey = grey_of(c)](double) { return grey; });
 }
@@ -144,6 +148,8 @@ constexpr PictureFault kFaults[] = {
     {"picture-grey", "the picture is grey", nullptr, make_grey},
     {"picture-saturation", "the picture's colours are %s times as far from grey as they should be", nullptr, saturate,
      nullptr, Search::smooth, kFactors, nullptr, 0.01},
+    {"picture-ceiling", "the picture holds nothing above %s", nullptr, cut_off, nullptr, Search::smooth, kCeilings,
+     nullptr, 0.01},
     {"picture-tone-mapped", "the picture is tone-mapped by x / (1 + x)", nullptr, map_tones},
     {"picture-clamped", "the picture is clamped to [0, 1]", nullptr, clamp_to_one, of_floats},
     {"picture-inverted", "the picture shows 1 - x", nullptr, invert},

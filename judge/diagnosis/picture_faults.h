@@ -27,7 +27,8 @@ enum class Search : uint8_t {
   doubled_light,   ///< the same of one that is drawn twice
   count,           ///< of lights, by sums of the first so many
   count_at_pixel,  ///< of lights that reach a pixel, the same
-  one_light        ///< a light and what is changed of it, by least squares
+  one_light,       ///< a light and what is changed of it, by least squares
+  vector           ///< three numbers of all lights, by least squares
 };
 
 struct PictureFault {
@@ -45,13 +46,15 @@ struct PictureFault {
   int stale = 0;                          ///< pixels a side of tiles, a few of which hold something else
   /// Of Search::one_light: changes the light by the vector; `start` is the vector that changes nothing.
   void (*one_light)(Light&, const std::array<double, 3>& vector) = nullptr;
-  bool (*of_light)(const Light&) = nullptr;       ///< whether it can be of that light
-  double start = 0;                               ///< of each component
-  int numbers = 3;                                ///< components that the fault has
-  std::span<const std::array<double, 3>> from{};  ///< other vectors to start from
+  bool (*of_light)(const Light&) = nullptr;                               ///< whether it can be of that light
+  double start = 0;                                                       ///< of each component
+  void (*by_vector)(LightPass&, const std::array<double, 3>&) = nullptr;  ///< of Search::vector
+  int numbers = 3;                                                        ///< components that the fault has
+  std::span<const std::array<double, 3>> from{};                          ///< other vectors to start from
 
   ParameterForm form() const {
     if (search == Search::none) return {};
+    if (search == Search::vector) return {false, false, numbers};
     return {true, false, search == Search::one_light ? numbers : 0};
   }
 };

@@ -12,14 +12,14 @@ namespace trueshade::oracle {
 namespace {
 
 // Shares of the pixels that are not as they should be.
-constexpr double kNamed = 1.0 / 3;        ///< that a finding explains at least
-constexpr double kParameterCost = 0.004;  ///< what a parameter must earn
-constexpr double kRival = 0.04;           ///< that a lesser finding may cost more than the best
-constexpr double kPairGain = 0.55;        ///< of a single fault's cost, that two may cost at most
-constexpr double kLeastGain = 0.02;       ///< and that a second fault must earn
-constexpr double kLeastChanged = 8;       ///< pixels below which there is nothing to explain
-constexpr double kNearOne = 0.015;        ///< factors that change values by about a code
-constexpr double kLeftByFew = 0.35;       ///< of what disagrees, that such a factor may leave
+constexpr double kNamed = 1.0 / 3;                       ///< that a finding explains at least
+constexpr double kParameterCost = 0.004;                 ///< what a parameter must earn
+constexpr double kRival = 0.04;                          ///< that a lesser finding may cost more than the best
+constexpr double kPairGain = 0.55;                       ///< of a single fault's cost, that two may cost at most
+constexpr double kLeastGain = 0.02;                      ///< and that a second fault must earn
+constexpr double kLeastChanged = 8;                      ///< pixels below which there is nothing to explain
+constexpr double kNearOne = 0.015;                       ///< factors that change values by about a code
+constexpr double kLeftByFew = 0.25, kLeftByTwo = 0.175;  ///< of what disagrees, that such a factor may leave
 constexpr size_t kFirstOfPairs = 5, kFinalists = 8;
 
 struct Candidate {
@@ -179,6 +179,7 @@ Finding PictureSearch::finding(std::span<const NamedFault> faults, size_t which)
   f.explained = together.found.explained / changed_;
   f.contradicted = same_ > 0 ? together.found.contradicted / same_ : 0;
   f.together = which > 0;
+  f.fitted = fault.fault->search != Search::none && fault.fault->search != Search::one_of;
   f.alone = f.together ? judged({fault}, true).found.explained / changed_ : f.explained;
   f.proof = proof(up_to_it, before);
   if (f.proof.plane.empty() && which == 0 && faults.size() > 1) f.proof = proof(faults, faults.subspan(1));
@@ -198,7 +199,7 @@ bool explains_by_chance(const Candidate& c, double cost_of_right) {
     return f.fault->search == Search::smooth && std::fabs(f.parameter.number - 1) < kNearOne;
   };
   return std::any_of(c.faults.begin(), c.faults.end(), near_one) &&
-         c.found.cost > kLeftByFew / double(c.faults.size()) * cost_of_right;
+         c.found.cost > (c.faults.size() == 1 ? kLeftByFew : kLeftByTwo) * cost_of_right;
 }
 
 /// Of single faults those that may be named, ranked. Dithering explains what is off by a code: it comes after every

@@ -185,13 +185,17 @@ void position_by_far(const Context& c, PlaneValues& v, double f) { position_by_p
 void position_scaled(const Context&, PlaneValues& v, double f) {
   for (double& p : v.position) p *= f;
 }
-void position_as_half(const Context&, PlaneValues& v, double) {
-  for (double& p : v.position)
-    if (p != 0) {
-      const double unit = std::ldexp(1.0, std::max(std::ilogb(p), -14) - 10);
-      p = std::nearbyint(p / unit) * unit;
-    }
+double as_half(double v) {
+  const double unit = v != 0 ? std::ldexp(1.0, std::max(std::ilogb(v), -14) - 10) : 1;
+  return std::nearbyint(v / unit) * unit;
 }
+void position_as_half(const Context&, PlaneValues& v, double) {
+  for (double& p : v.position) p = as_half(p);
+}
+void normal_as_half(const Context&, PlaneValues& v, double) {
+  for (double& n : v.normal) n = as_half(n);
+}
+void depth_as_half(const Context&, PlaneValues& v, double) { v.depth = as_half(v.depth); }
 
 // --- albedo, texture coordinates, identifiers
 // ---------------------------------------------------------------------------
@@ -336,6 +340,8 @@ constexpr PlaneFault kFaults[] = {
      position_by_far, nullptr, nullptr, kSmooth, kPlaneFactors},
     {"position-scaled", "the positions are %s times what they should be", Plane::position, position_scaled, nullptr,
      nullptr, kSmooth, kFactors},
+    {"normal-half", "the normals went through half floats", Plane::normal, normal_as_half},
+    {"depth-half", "the depths went through half floats", Plane::depth, depth_as_half},
     {"position-half",
      "the positions went through half floats",
      Plane::position,

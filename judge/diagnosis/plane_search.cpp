@@ -180,10 +180,13 @@ std::vector<FaultParameter> PlaneSearch::parameters(const PlaneSupposition& base
 
 std::vector<Candidate> PlaneSearch::beside(const PlaneSupposition& base, bool redraw) const {
   std::vector<Candidate> candidates;
+  const auto leaves_nothing = [&](const Candidate& c) { return c.found.cost < 1e-3 * cost_few_; };
   const auto tries = [&](std::span<const PlaneFault> table) {
     for (const PlaneFault& fault : table) {
       const auto same = [&](const NamedPlaneFault& f) { return f.fault == &fault; };
       if (!bears_on(fault) || std::any_of(base.faults.begin(), base.faults.end(), same)) continue;
+      // Where nothing is left to explain no fit can do better.
+      if (fault.fit != Fit::none && std::any_of(candidates.begin(), candidates.end(), leaves_nothing)) continue;
       std::optional<Candidate> best;
       for (const FaultParameter& parameter : parameters(base, fault)) {
         std::optional<PlaneSupposition> s = planes_.with(base, {&fault, parameter});
@@ -309,7 +312,7 @@ Finding PlaneSearch::finding(std::span<const NamedPlaneFault> faults, size_t whi
   f.plane = kPlaneNames[size_t(own)];
   f.changed = uint64_t(std::llround(found.changed));
   f.explained = found.explained, f.contradicted = found.contradicted;
-  f.together = which > 0;
+  f.together = which > 0, f.fitted = fault.fault->is_estimate() || fault.fault->averages;
   f.alone = f.together ? share(supposed({&fault, 1}), own).explained : f.explained;
   f.proof = proof(up_to_it, own, which > 0 ? &before : nullptr);
   if (f.proof.plane.empty() && which == 0 && faults.size() > 1) {

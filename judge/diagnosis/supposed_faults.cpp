@@ -76,6 +76,7 @@ Range range_sought(const PictureFault& fault, const Scene& scene) {
     case Search::none:
     case Search::one_of:
     case Search::one_light:  // several_numbers() reads it
+    case Search::vector:
       break;
   }
   return {1, 0};
@@ -127,6 +128,7 @@ double parameter_of(const Fault& fault, const Scene& scene, const std::string* t
 
 bool names_one(double index, size_t count) { return index >= 0 && index == std::floor(index) && index < double(count); }
 bool can_be(const PictureFault& fault, const Scene& scene, const FaultParameter& p) {
+  if (fault.search == Search::vector) return true;
   return names_one(p.number, scene.lights.size()) && fault.of_light(scene.lights[size_t(p.number)]);
 }
 /// Whether there is such an object with such a part, and the fault changes it.
@@ -155,7 +157,9 @@ FaultParameter several_numbers(const Fault& fault, const Scene& scene, const std
 }
 
 /// Whether its numbers are more than the one that parameter_of() reads.
-bool has_several(const PictureFault& fault) { return fault.search == Search::one_light; }
+bool has_several(const PictureFault& fault) {
+  return fault.search == Search::one_light || fault.search == Search::vector;
+}
 bool has_several(const PlaneFault& fault) { return fault.search == PlaneFault::Search::suspected; }
 
 /// Adds the fault if there is one in the tables.

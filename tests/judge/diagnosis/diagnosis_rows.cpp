@@ -3,10 +3,10 @@
 //   diagnosis_rows FILE [PART-OF-A-NAME [VIEWS [STEP [PART PARTS]]]]
 //   diagnosis_rows FILE --pairs COUNT
 //
-// STEP: of the tries one in so many, of each fault from another one on; a number that shares no factor with 24 meets all
-// scenes, targets and strategies. PART of PARTS: of the faults one in so many, for several processes.
-// Pairs: two faults at once; the fault is `one + other`, `named first` says whether the first of them is named, `named`
-// whether both are.
+// STEP: of the tries one in so many, of each fault from another one on; a number that shares no factor with 24 meets
+// all scenes, targets and strategies. PART of PARTS: of the faults one in so many, for several processes. Pairs: two
+// faults at once; the fault is `one + other`, `named first` says whether the first of them is named, `named` whether
+// both are.
 //
 // Fault, scene, preset, strategy, target, variant, view, pixels changed, convicted, named first, named, plane blamed,
 // ms, findings, pixels changed beyond what is legal. Made into docs/data/diagnosis.md by scripts/diagnosis_table.sh.

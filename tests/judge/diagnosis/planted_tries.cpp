@@ -9,6 +9,7 @@
 #include "tests/judge/captured.h"
 #include "tests/judge/diagnosis/legal_witness.h"
 #include "tests/judge/diagnosis/planted.h"
+#include "tests/judge/diagnosis/plants.h"
 
 namespace trueshade::testing {
 
@@ -108,7 +109,8 @@ bool may_be_legal(const Image& right, const Image& wrong) {
 }  // namespace
 
 std::vector<PlantedPair> pairs_of_plants(int count) {
-  const std::span<const Plant> all = plants();
+  // What is estimated of what is drawn is looked for alone: of pairs both are of pictures or of planes.
+  const std::span<const Plant> all = plants().first(plants_of_pictures().size() + plants_of_planes().size());
   std::vector<PlantedPair> pairs;
   for (size_t i = 0; int(pairs.size()) < count; ++i) {
     const Plant &one = all[i % all.size()], &other = all[(i * 17 + 11 + i / all.size() * 5) % all.size()];
