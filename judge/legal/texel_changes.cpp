@@ -49,8 +49,12 @@ Rgba slope(const Rgba& to, const Rgba& from, double amount) {
 /// The filter that reads a level, nearest or linear.
 Filter filter_of(const Sampler& s, double lod) { return lod > 0 ? s.min_filter : s.mag_filter; }
 
-/// Whether the nearest texel is the same wherever a legal lookup may be.
+/// Whether the same filter, and of a nearest one the same texel, is read wherever a legal lookup may be.
 bool is_sure(const Texture& texture, const Sampler& s, double u, double v, double lod) {
+  // OpenGL lets the two filters meet at 0.5 where the one is linear and the other nearest with levels (8.15).
+  const bool may_meet_later =
+      s.mag_filter == Filter::linear && s.min_filter == Filter::nearest && s.mip_filter != MipFilter::none;
+  if (may_meet_later && lod > -0.1 && lod < 0.6) return false;
   if (filter_of(s, lod) == Filter::linear) return true;
   constexpr double kDoubt = 0x1p-6;  // of a texel
   const bool levels = lod > 0 && s.mip_filter != MipFilter::none;

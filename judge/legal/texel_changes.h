@@ -33,7 +33,7 @@ struct TexelChanges {
   std::array<Rgba, kTexelCauses> change{};  ///< of the texel, for one unit of each cause
 };
 
-/// Nothing where the nearest texel may be another one, so that the nominal one says little.
+/// Nothing where the filter or the nearest texel may be another one, so that the nominal one says little.
 ///   normals: the texture is a normal map
 std::optional<TexelChanges> texel_changes(const Texture& texture, const Sampler& sampler, const TexturePlace& place,
                                           bool normals, const TexelWay& way);

@@ -31,6 +31,8 @@ constexpr TestedCause kTexelTests[kTexelCauses] = {{"gain", {0, 0}, 0.003}, {"le
                                                    {"", {-0x1p-6, 0x1p-6}}, {"", {-0.6, 0.6}},
                                                    {"order", {0, 0}, 0.5}};
 constexpr TestedCause kScale{"scale", {0, 0}, 0.02};  // in place of a normal map's gain
+constexpr TestedCause kSwitch{"", {-0.6, 0.6}};  // in place of a level, where the nearest is read: a pixel tells all or
+                                                 // nothing
 
 constexpr double kCode = 1.0 / 255;  // what rounding alpha and 1 - alpha to codes may be off together
 
@@ -46,16 +48,21 @@ struct Tested {
   std::vector<Deviation> list;
 };
 
-std::vector<CauseBounds> bounds_of(const Tested& t) {
+enum class Tolerances : uint8_t { apart, included };
+
+std::vector<CauseBounds> bounds_of(const Tested& t, Tolerances tolerances) {
   std::vector<CauseBounds> bounds;
-  for (const TestedCause& c : t.causes) bounds.push_back({c.legal.low - c.tolerance, c.legal.high + c.tolerance});
+  for (const TestedCause& c : t.causes) {
+    const double more = tolerances == Tolerances::included ? c.tolerance : 0;
+    bounds.push_back({c.legal.low - more, c.legal.high + more});
+  }
   return bounds;
 }
 
 void add_tests(const Tested& t, double deviations, bool gains_alone, std::vector<MaterialEvidence>& found) {
   constexpr size_t kLeast = 64;
   if (t.list.size() < kLeast) return;
-  const std::vector<CauseBounds> bounds = bounds_of(t);
+  const std::vector<CauseBounds> bounds = bounds_of(t, Tolerances::included);
   const std::vector<CauseEstimate> estimates = estimate_causes(t.list, bounds);
   for (size_t i = 0; i < estimates.size(); ++i) {
     const TestedCause& cause = t.causes[i];
@@ -63,7 +70,7 @@ void add_tests(const Tested& t, double deviations, bool gains_alone, std::vector
     MaterialEvidence e = t.of;
     e.map = t.maps[i], e.cause = cause.name, e.value = estimates[i].value, e.error = estimates[i].error;
     e.least = bounds[i].high + deviations * e.error;
-    e.against = estimates[i].beyond > deviations * e.error;
+    e.against = estimates[i].beyond > deviations * e.error && std::fabs(e.value) > e.least;
     found.push_back(std::move(e));
   }
 }
@@ -87,7 +94,10 @@ Tested tested_maps(const Scene& scene, const std::string& stage, TextureDeviatio
   for (const MaterialMap map : d.maps)
     for (size_t cause = 0; cause < kTexelCauses; ++cause) {
       const bool is_scale = map == kNormalMap && TexelCause(cause) == TexelCause::gain;
-      t.causes.push_back(is_scale ? kScale : kTexelTests[cause]);
+      const Sampler& sampler = maps_of(scene.materials[d.material])[map]->sampler;
+      const bool is_nearest = sampler.mip_filter == MipFilter::nearest || sampler.min_filter == Filter::nearest;
+      const bool is_switch = TexelCause(cause) == TexelCause::level && is_nearest;
+      t.causes.push_back(is_scale ? kScale : is_switch ? kSwitch : kTexelTests[cause]);
       t.maps.push_back(kMapNames[map]);
     }
   return t;
@@ -129,7 +139,7 @@ class MapsByWay {
   /// Keeps the way where it leaves less than those before.
   void try_way(const TexelWay& way) {
     double left = 0;
-    for (const Tested& t : by(way, some_)) left += causes_within(t.list, bounds_of(t)).left;
+    for (const Tested& t : by(way, some_)) left += causes_within(t.list, bounds_of(t, Tolerances::apart)).left;
     if (is_tried_ && left >= left_) return;
     way_ = way, left_ = left, is_tried_ = true;
   }

@@ -74,6 +74,7 @@ double PlaneView::held(double value, int channel) const {
 std::optional<Deviation> PlaneView::deviation(int x, int y, int channel, double expected) const {
   constexpr double kRounding = 0.3;  // standard deviation of what rounding to steps leaves
   const double given = stored(x, y, channel);
+  if (layout.small_float() && layout.bits[size_t(channel)] < 16) return std::nullopt;  // steps of a part in 32 and more
   const bool is_open = !unorm() || (expected > 1 && expected < layout.largest_code(channel) - 1.0);
   if (!is_open || !std::isfinite(given) || !std::isfinite(expected)) return std::nullopt;
   const double parts = unorm() ? 16 : 4096;  // of a step, or in floats of 1: values that near round alike

@@ -42,7 +42,8 @@ struct PlaneView {
   bool quantised() const { return unorm() || layout.small_float(); }
   /// A value as the plane would hold it but for rounding: of fixed point in codes, sRGB encoded; else the value itself.
   double held(double value, int channel) const;
-  /// How far the stored channel is from what it is expected to hold; nothing where the format clamps it.
+  /// How far the stored channel is from what it is expected to hold; nothing where the format clamps it, or is a
+  /// float of 10 or 11 bits.
   std::optional<Deviation> deviation(int x, int y, int channel, double expected) const;
   /// A constant a shader writes, as stored() has it: exactly stored by every format.
   double constant(double value, int channel) const { return unorm() ? value * layout.largest_code(channel) : value; }
