@@ -224,9 +224,9 @@ std::string verdict_line(const ComparedPictures& pictures) {
   if (c.outcome == Outcome::same)
     return "the pictures are the same: " + count_of(d.pixels, "pixel", "pixels") + " of " +
            count_of(d.channels.size(), "channel", "channels") + ", every stored value equal" + left_out_text(d);
-  const std::string extent = extent_text(d) + left_out_text(d);
   if (const auto& v = pictures.judged.validation)
-    return "judged by the reference's scene: " + conclusion(*v) + "; " + extent + " from the reference";
+    return "judged by the reference's scene: " + conclusion(*v) + "; " + extent_text(d) + " from the reference";
+  const std::string extent = extent_text(d) + left_out_text(d);
   if (c.outcome == Outcome::within) return "the pictures differ within what is allowed: " + extent;
   const std::string verb =
       c.outcome == Outcome::different ? "the pictures differ: " : "the pictures do not fit together: ";

@@ -65,11 +65,18 @@ class SceneJudge {
       v_.findings = oracle::diagnose(scene_, v_.pipeline, v_.profile, capture, v_.verdict.stages, {});
     for (oracle::Finding& finding : v_.findings)
       finding.command = "trueshade validate " + for_shell(scene_.spec) + " --gbuffer PLANES.exr --image " +
-                        for_shell(pictures_.test.path) + " --suppose " + finding.name;
+                        for_shell(pictures_.test.path) + mask_words() + " --suppose " + finding.name;
     return std::move(v_);
   }
 
  private:
+  /// The options of the mask, as a shell takes them.
+  std::string mask_words() const {
+    std::string words = options_.mask.file.empty() ? "" : " --mask " + for_shell(options_.mask.file);
+    for (const compare::IgnoredIds& ignored : options_.mask.ignored) words += " --ignore " + ignored.text();
+    return words + (options_.mask.allow ? " --allow-mask" : "");
+  }
+
   void load() {
     const std::string *const spec = metadata_value(pictures_.reference, "trueshade:scene"),
                              *const hash = metadata_value(pictures_.reference, "trueshade:sceneHash"),

@@ -22,7 +22,7 @@ void add_criteria(CommandTable& table, CompareOptions& options, CompareTexts& te
   add_value(table, "--max-difference", "D", texts.difference,
             "No value differs by more than D: a number, or a fraction like 2/255");
   add_value(table, "--max-ulp", "COUNT", texts.ulp,
-            "No value differs by more steps of its storage: floats, halves, codes");
+            "No value differs by more steps of its storage, of two the coarser: floats, halves, codes");
   add_value(table, "--pixels", "COUNT", texts.pixels, "At most so many pixels differ by more than --delta");
   add_value(table, "--delta", "D", texts.delta, "What --pixels and --window let pass; without it 0");
   add_values(table, "--window", "SIDE:SHARE", texts.windows,

@@ -146,10 +146,12 @@ py::dict dict_of(const compare::Comparison& c) {
 std::string quoted(const std::string& word) { return py::str(py::module_::import("shlex").attr("quote")(word)); }
 
 /// The command that makes the same page of the same files; empty where there are none.
-std::string command_of(const ComparedPictures& pictures, const std::string& page) {
-  if (pictures.reference.kind == kArray || pictures.test.kind == kArray) return {};
-  return "trueshade compare " + quoted(pictures.reference.path) + ' ' + quoted(pictures.test.path) + " -o " +
-         quoted(page);
+std::string command_of(const ComparedPictures& pictures, const std::optional<PictureFile>& mask,
+                       const std::string& page) {
+  const bool is_array = mask && mask->kind == kArray;
+  if (is_array || pictures.reference.kind == kArray || pictures.test.kind == kArray) return {};
+  return "trueshade compare " + quoted(pictures.reference.path) + ' ' + quoted(pictures.test.path) +
+         (mask ? " --mask " + quoted(mask->path) : "") + " -o " + quoted(page);
 }
 
 py::dict compare_pictures(const py::object& reference, const py::object& test,
@@ -184,8 +186,9 @@ py::dict compare_pictures(const py::object& reference, const py::object& test,
   if (!page_path.empty()) check_writable(page_path);
   ComparedPictures pictures;
   pictures.reference = std::move(a.picture), pictures.test = std::move(b.picture);
-  const std::string command = command_of(pictures, page_path);
-  if (const std::optional<PictureFile> mask_file = mask_picture(mask)) {
+  const std::optional<PictureFile> mask_file = mask_picture(mask);
+  const std::string command = command_of(pictures, mask_file, page_path);
+  if (mask_file) {
     const compare::MaskRules left_out{mask_file->path, {}, "pass allow_mask=True", allow_mask};
     rules.mask = compare::mask_of_pair(left_out, &*mask_file, pictures.reference, pictures.test);
     pictures.mask = rules.mask, pictures.left_out_by = left_out.text();
