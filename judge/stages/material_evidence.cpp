@@ -114,7 +114,9 @@ class MapsByWay {
     for (size_t i = 0; i < stage.textured.size(); i += stride) some_.push_back(stage.textured[i]);
   }
 
-  std::vector<Tested> found() {
+  /// By the way that leaves least; and behind it, where maps are sRGB, by the other decoder: which of them it was shows
+  /// less than what a decoder does to a gain.
+  std::vector<std::vector<Tested>> found() {
     if (some_.empty()) return {};
     const bool has_srgb = std::any_of(scene_.textures.begin(), scene_.textures.end(),
                                       [](const Texture& t) { return t.format == TextureFormat::srgb8_a8; });
@@ -125,7 +127,9 @@ class MapsByWay {
     for (double step = 0.25; step > 0.05; step /= 2)
       for (const double to : {way_.rho - step, way_.rho + step})
         if (std::fabs(to) <= 1) try_way({to, way_.late, way_.mesa});
-    return by(way_, stage_.textured);
+    std::vector<std::vector<Tested>> out{by(way_, stage_.textured)};
+    if (has_srgb) out.push_back(by({way_.rho, way_.late, !way_.mesa}, stage_.textured));
+    return out;
   }
 
  private:
@@ -172,6 +176,14 @@ std::vector<Tested> tested_glass(const Scene& scene, const StageVerdict& stage) 
   return out;
 }
 
+/// Whether the same cause of the same material, plane and map is against the picture in another list.
+bool is_against(const MaterialEvidence& e, const std::vector<MaterialEvidence>& others) {
+  return std::any_of(others.begin(), others.end(), [&e](const MaterialEvidence& o) {
+    return o.against && o.stage == e.stage && o.material == e.material && o.plane == e.plane && o.map == e.map &&
+           o.cause == e.cause;
+  });
+}
+
 }  // namespace
 
 std::string MaterialEvidence::subject() const {
@@ -200,16 +212,21 @@ std::vector<MaterialEvidence> material_evidence(const Scene& scene, const Pipeli
                                                 const Capture& capture, std::span<const StageVerdict> stages,
                                                 double significance) {
   const Profile by = resolved(profile, pipeline);
-  std::vector<Tested> tested;
+  std::vector<Tested> tested, otherwise;
   for (const StageVerdict& stage : stages) {
-    for (Tested& t : MapsByWay(scene, pipeline, by, capture, stage).found()) tested.push_back(std::move(t));
+    const std::vector<std::vector<Tested>> maps = MapsByWay(scene, pipeline, by, capture, stage).found();
+    if (!maps.empty()) tested.insert(tested.end(), maps[0].begin(), maps[0].end());
+    if (maps.size() > 1) otherwise.insert(otherwise.end(), maps[1].begin(), maps[1].end());
     for (Tested& t : tested_glass(scene, stage)) tested.push_back(std::move(t));
   }
   constexpr double kTestsEach = 8;
   const double tests = kTestsEach * double(std::max<size_t>(tested.size(), 1));
   const double deviations = std::sqrt(2 * std::log(2 * tests / significance));  // a normal distribution's, at most
-  std::vector<MaterialEvidence> found;
+  std::vector<MaterialEvidence> found, doubted;
   for (const Tested& t : tested) add_all_tests(t, deviations, found);
+  for (const Tested& t : otherwise) add_all_tests(t, deviations, doubted);
+  for (MaterialEvidence& e : found)
+    if (!e.map.empty() && !otherwise.empty()) e.against = e.against && is_against(e, doubted);
   return found;
 }
 
