@@ -29,7 +29,7 @@ bool has_surface(const oracle::Capture& capture, int x, int y) {
 
 FloatPicture sum_of(const Subject& subject) {
   Pipeline floats = subject.pipeline;
-  floats.target = Format::rgba32f;
+  floats.target = Format::rgba32f, floats.light_model.clamp_result = false;  // clamped where it is stored
   return floats_of(render_frame(subject.scene, floats).color);
 }
 
@@ -83,9 +83,13 @@ oracle::Capture weighted_with(const Subject& subject, const LightWeight& weight)
   return pictured_with(subject, [&](FloatPicture& picture, const oracle::Capture& right) {
     const FloatPicture positions = floats_of(*right.plane("position"));
     for (int y = 0; y < picture.height; ++y)
-      for (int x = 0; x < picture.width; ++x)
+      for (int x = 0; x < picture.width; ++x) {
+        glm::dvec3 sum(0.0), weighted(0.0);  // of terms in which the albedo may be missing, so their ratio counts
         for (size_t i = 0; has_surface(right, x, y) && i < terms.size(); ++i)
-          picture.at(x, y) += terms[i].at(x, y) * (weight(i, positions.at(x, y), x, y) - 1.0);
+          sum += terms[i].at(x, y), weighted += terms[i].at(x, y) * weight(i, positions.at(x, y), x, y);
+        for (int c = 0; c < 3; ++c)
+          if (sum[c] > 0) picture.at(x, y)[c] *= weighted[c] / sum[c];
+      }
   });
 }
 

@@ -136,8 +136,9 @@ std::vector<UnseenFault> unseen_faults_of_lights() {
       {"colours-of-the-next", "each light has the colour of the next", "- light-colored", all, colours_of_next},
       {"stride-12-for-16", "positions of lights are packed by 12 bytes and read by 16", "-", all, buffer_stride},
       {"cones-whole-for-half", "whole angles of cones are taken for half ones", "light-cones", "lecture", cones_whole},
-      {"eye-forgotten", "the viewer of highlights stands at the origin", "lighting-eye", all, eye_forgotten},
-      {"exponent-of-phong", "shininess is four times what it should be", "shininess", all, exponent_of_phong},
+      {"eye-forgotten", "the viewer of highlights stands at the origin", "lighting-eye", "city box", eye_forgotten},
+      {"exponent-of-phong", "shininess is four times what it should be", "shininess", "city cornell box",
+       exponent_of_phong},
       {"highlights-tinted", "the specular colour is the albedo", "- specular-factor", "city cornell",
        highlights_tinted},
   };

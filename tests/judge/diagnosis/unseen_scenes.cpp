@@ -72,7 +72,10 @@ Capture yaw_wrong(const Subject& s) {
 }
 
 Capture height_wrong(const Subject& s) {
-  const size_t object = seen_object(s, 1);
+  size_t rank = 0;  // of the first that has a height
+  const auto mesh = [&] { return s.scene.meshes[s.scene.instances[seen_object(s, rank)].mesh]; };
+  while (reach_of(mesh()).y == 0) ++rank;
+  const size_t object = seen_object(s, rank);
   return drawn_with(s, [=](Scene& scene, Pipeline&) { scene.instances[object].world_from_object[1] *= 1.3f; });
 }
 
