@@ -42,7 +42,8 @@ bool ends_sharply(const StageVerdict& stage, const std::vector<uint8_t>& tiles, 
 
 }  // namespace
 
-/// Tiles of which two fifths are not as they should be, where hardly a tenth of the others is.
+/// Tiles of which two fifths are not as they should be, where hardly a tenth of the others is. A few: a tenth of all,
+/// or three of a small picture, but never more than a quarter of it.
 StaleTiles::StaleTiles(const StageVerdict& stage) : width_(stage.width) {
   for (const int side : {8, 16, 32, 64}) {
     const int across = (stage.width + side - 1) / side, down = (stage.height + side - 1) / side;
@@ -62,7 +63,7 @@ StaleTiles::StaleTiles(const StageVerdict& stage) : width_(stage.width) {
       (stale ? odd_stale : odd_other) += odd_in[i], (stale ? all_stale : all_other) += all_in[i];
     }
     if (10 * odd_other > all_other || size_t(10 * tiles.count) > std::max<size_t>(odd_in.size(), 30) ||
-        !ends_sharply(stage, tiles.stale, side)) {
+        size_t(4 * tiles.count) > odd_in.size() || !ends_sharply(stage, tiles.stale, side)) {
       std::fill(tiles.stale.begin(), tiles.stale.end(), 0);
       tiles.count = 0;
     }
