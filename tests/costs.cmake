@@ -13,6 +13,8 @@ trueshade_slow(40
 trueshade_slow(20
   "cli:what OpenGL draws here is explained, pixel by pixel"
   "gl:llvmpipe encodes every float from 0 to 1 as the sRGB code of the profile"
+  "judge:A gain, a level or a scale of all lookups is convicted though each of them is legal"
+  "judge:Lookups that go one legal way all over an image are not convicted"
   "judge:Our own textured frames are EXACT or TEX to the ideal profile, and legal for any GPU"
   "judge:What llvmpipe draws is explained by its profile and by any GPU's, and its profile is inferred"
   "judge:Glass with maps of metal, emission and occlusion by llvmpipe is explained, and a wrong map of it is not"
@@ -37,6 +39,7 @@ trueshade_slow(10
   "shading:Row 33 over all floats in [0, 1]: 8-bit stores never fall"
   "shading:hostile numbers in a scene's text: a frame without NaN, or exit code 3 or 4 in one line")
 trueshade_slow(4
+  "judge:Maps of which one is decoded after it is filtered, and the other before, are convicted together, not apart"
   "cli:wherever memory ends, the command ends in order"
   "allocations:A frame after the first asks for the memory of its picture, and a few times more, whatever the scene"
   "cli:A wrong channel goes by the name that its plane gives it"
