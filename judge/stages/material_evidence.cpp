@@ -59,9 +59,16 @@ std::vector<CauseBounds> bounds_of(const Tested& t, Tolerances tolerances) {
   return bounds;
 }
 
+size_t clusters_in(const std::vector<Deviation>& list) {
+  std::vector<uint64_t> clusters;
+  for (const Deviation& d : list) clusters.push_back(d.cluster);
+  std::sort(clusters.begin(), clusters.end());
+  return size_t(std::unique(clusters.begin(), clusters.end()) - clusters.begin());
+}
+
 void add_tests(const Tested& t, double deviations, bool gains_alone, std::vector<MaterialEvidence>& found) {
-  constexpr size_t kLeast = 64;
-  if (t.list.size() < kLeast) return;
+  constexpr size_t kLeast = 64, kLeastClusters = 48;
+  if (t.list.size() < kLeast || clusters_in(t.list) < kLeastClusters) return;
   const std::vector<CauseBounds> bounds = bounds_of(t, Tolerances::included);
   const std::vector<CauseEstimate> estimates = estimate_causes(t.list, bounds);
   for (size_t i = 0; i < estimates.size(); ++i) {
