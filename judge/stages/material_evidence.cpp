@@ -166,7 +166,9 @@ class MapsByWay {
   bool is_tried_ = false;
 };
 
+/// Draw by draw llvmpipe's blends lean by more than these causes say (two of 2,000 random frames): no evidence there.
 std::vector<Tested> tested_glass(const Scene& scene, const StageVerdict& stage) {
+  if (stage.stage == "transparency") return {};
   std::map<uint32_t, Tested> by_material;
   for (const GlassDeviation& g : stage.glass) {
     const auto [at, is_new] = by_material.try_emplace(g.material);
