@@ -209,19 +209,20 @@ Step step_of(const Clusters& clusters, const Equations& e, const std::vector<siz
 
 }  // namespace
 
-CausesWithin causes_within(std::span<const Deviation> deviations, std::span<const CauseBounds> bounds) {
+double left_within(std::span<const Deviation> deviations, std::span<const CauseBounds> bounds) {
   const Clusters clusters = clusters_of(deviations);
   const Equations e = equations_of(clusters, bounds.size());
-  CausesWithin out{BoundedFit(e, bounds).at(), 0};
-  for (size_t j = 0; j < bounds.size(); ++j) out.value[j] = e.length[j] > 0 ? out.value[j] / e.length[j] : 0;
+  const BoundedFit fit(e, bounds);
+  double sum = 0;
   for (size_t c = 0; c < clusters.count(); ++c)
     for (size_t i = clusters.first[c]; i < clusters.first[c + 1]; ++i) {
       const Deviation& d = *clusters.deviations[i];
       double left = d.given;
-      for (size_t j = 0; j < bounds.size(); ++j) left -= out.value[j] * d.by_cause[j];
-      out.left += clusters.weight(c) * left * left;
+      for (size_t j = 0; j < bounds.size(); ++j)
+        if (e.length[j] > 0) left -= fit.at()[j] / e.length[j] * d.by_cause[j];
+      sum += clusters.weight(c) * left * left;
     }
-  return out;
+  return sum;
 }
 
 std::vector<CauseEstimate> estimate_causes(std::span<const Deviation> deviations, std::span<const CauseBounds> bounds) {

@@ -27,12 +27,8 @@ struct CauseEstimate {
                       ///< the other causes may do the same
 };
 
-/// The likeliest of each cause within its bounds, and the sum over clusters of squares that is left.
-struct CausesWithin {
-  std::vector<double> value;
-  double left = 0;
-};
-CausesWithin causes_within(std::span<const Deviation> deviations, std::span<const CauseBounds> bounds);
+/// The least sum of squares, over clusters, that causes within their bounds leave of the deviations.
+double left_within(std::span<const Deviation> deviations, std::span<const CauseBounds> bounds);
 
 /// Each cause's estimate. A cluster counts once, however many deviations it has. Errors are those of clusters, whatever
 /// is behind them: White's estimator (Halbert White, A Heteroskedasticity-Consistent Covariance Matrix Estimator,

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "judge/legal/level_range.h"
 #include "oracle/blend.h"
 
 namespace trueshade::oracle {
@@ -59,15 +58,6 @@ void keep_glass(const TransparentLayers& layers, const TransparentPixel& pixel, 
     if (view.unorm()) d->by_cause[size_t(GlassCause::step_r) + c] = change->blends;
     row.glass.push_back({change->material, *std::move(d)});
   }
-}
-
-std::array<double, 4> values_at(const PlaneView& view, int x, int y) {
-  std::array<double, 4> out{0, 0, 0, 1};
-  for (int k = 0; k < view.layout.channels; ++k) {
-    const double stored = view.stored(x, y, k), scaled = view.unorm() ? stored / view.layout.largest_code(k) : stored;
-    out[size_t(k)] = view.layout.srgb_channel(k) ? double(srgb_decoded((long double)(scaled))) : scaled;
-  }
-  return out;
 }
 
 }  // namespace trueshade::oracle

@@ -10,7 +10,4 @@ namespace trueshade::oracle {
 void keep_glass(const TransparentLayers& layers, const TransparentPixel& pixel, const std::array<double, 4>& from,
                 const PlaneView& view, int x, int y, RowTally& row);
 
-/// The values of a pixel that is known.
-std::array<double, 4> values_at(const PlaneView& view, int x, int y);
-
 }  // namespace trueshade::oracle

@@ -5,7 +5,6 @@
 
 #include "core/error.h"
 #include "core/threads/parallel_for.h"
-#include "judge/stages/glass_deviations.h"
 
 namespace trueshade::oracle {
 
@@ -61,7 +60,6 @@ class TransparencyJudge {
     }
     LayeredVerdict v = judge_ways(ways, after, "color", x, y, profile_);
     if (profile_.blend == BlendRule::any_precision) v.match.choices.clear();  // factors may be rounded in many ways
-    if (v.pixel_class != PixelClass::violation) keep_glass(layers_, pixel, values_at(before, x, y), after, x, y, row);
     if (worse(v.pixel_class, classes_[at(x, y)])) classes_[at(x, y)] = v.pixel_class;
     const uint32_t instance = pixel.layers.empty() ? first : pixel.layers.front().instance;
     row.record(x, y, v.pixel_class, v.match, "after transparent instance " + std::to_string(instance));

@@ -53,7 +53,8 @@ Verdict validate_capture(const Scene& scene, const Pipeline& pipeline, const Cap
 /// (one line, where convicted), stages [{stage, width, height, counts by class name, left_out, covered,
 /// ambiguous, predicted_other, stored_values, worst_error, rounding, aggregates [{name, observed, low, high, chance,
 /// where, pass}], windows [{side, x, y, width, height, pixels, violations, other, mean_excess, largest_excess}], worst
-/// [{x, y, class, plane, low, high, nominal, given, note}]}], inferred. x, y from the top left; infinite ends are null.
+/// [{x, y, class, plane, low, high, nominal, given, note}]}], materials [{stage, material,
+/// plane, map, cause, value, error, least, pass}], inferred. x, y from the top left; infinite ends are null.
 std::string verdict_json(const Verdict& verdict);
 
 }  // namespace trueshade::oracle
