@@ -11,17 +11,26 @@
 namespace trueshade {
 namespace {
 
+/// docs/arithmetic.md section 2.
+template <class Vector>
+void make_unit(Vector& n) {
+  const float l2 = (n[0] * n[0] + n[1] * n[1]) + n[2] * n[2], inverse = l2 > 0.0f ? 1.0f / std::sqrt(l2) : 0.0f;
+  for (float& c : n) c *= inverse;
+}
+
 /// The corners of a fragment's triangle as submitted, and what the vertex stage makes of them.
 struct TriangleCorners {
   const Mesh& mesh;
   const InstanceTransform& transform;
   const uint32_t* index;
+  UnitNormals unit_normals;
   std::array<std::array<float, 3>, 3> position, normal;  ///< world; component, then corner
 
   TriangleCorners(const ExplainedFrame& frame, const PixelFragment& f)
       : mesh(frame.scene.meshes[frame.scene.instances[f.instance].mesh]),
         transform(frame.view.instances[f.instance]),
-        index(mesh.indices.data() + 3 * size_t(f.triangle)) {
+        index(mesh.indices.data() + 3 * size_t(f.triangle)),
+        unit_normals(frame.pipeline.gbuffer.unit_normals) {
     for (size_t k = 0; k < 3; ++k) place(k);
   }
 
@@ -42,8 +51,8 @@ struct TriangleCorners {
       position[r][k] = ((m[0] * x + m[1] * y) + m[2] * z) + m[3];
       n[r] = (a[0] * mesh.normal[0][v] + a[1] * mesh.normal[1][v]) + a[2] * mesh.normal[2][v];
     }
-    const float l2 = (n[0] * n[0] + n[1] * n[1]) + n[2] * n[2], inverse = l2 > 0.0f ? 1.0f / std::sqrt(l2) : 0.0f;
-    for (size_t r = 0; r < 3; ++r) normal[r][k] = n[r] * inverse;
+    if (made_unit_at_vertex(unit_normals)) make_unit(n);
+    for (size_t r = 0; r < 3; ++r) normal[r][k] = n[r];
   }
 };
 
@@ -190,6 +199,7 @@ void interpolate(const ExplainedFrame& frame, const PixelFragment& f, const GBuf
   for (size_t c = 0; c < 2; ++c) to.uv[c] = at(planes.uv.interpolation, corners.of(corners.mesh.uv[c], 0.0f));
   if (out.turned)
     for (float& n : to.normal) n = -n;
+  if (made_unit_at_fragment(planes.unit_normals)) make_unit(to.normal);
   const MaterialMaps* const maps = maps_of_fragment(frame, f);
   if (maps == nullptr) return;
   out.lookups = look_maps_up(*maps, corners, at, frame.view.maps.uv_how);

@@ -20,13 +20,13 @@ float component(std::span<const float> stream, uint32_t vertex, float absent) {
   return stream.empty() ? absent : stream[vertex];
 }
 
-/// The matrix times v, made unit length in float.
-void world_normal(const std::array<std::array<float, 3>, 3>& rows, const float v[3], float out[3]) {
-  float n[3];
+/// The matrix times v, in float, and made unit length there where `unit` says so.
+void world_normal(const std::array<std::array<float, 3>, 3>& rows, bool unit, const float v[3], float n[3]) {
   for (size_t r = 0; r < 3; ++r) n[r] = (rows[r][0] * v[0] + rows[r][1] * v[1]) + rows[r][2] * v[2];
+  if (!unit) return;
   const float l2 = (n[0] * n[0] + n[1] * n[1]) + n[2] * n[2];
   const float scale = l2 > 0 ? 1.0f / std::sqrt(l2) : 0.0f;
-  for (size_t r = 0; r < 3; ++r) out[r] = n[r] * scale;
+  for (size_t r = 0; r < 3; ++r) n[r] *= scale;
 }
 
 std::array<Real, 3> weights(const DrawnTriangle& t, Interpolation interpolation, int x, int y) {
@@ -127,17 +127,17 @@ void turn_normals(DrawnTriangle& t) {
 }  // namespace
 
 VertexValues vertex_values(const Scene& scene, const Instance& instance, const Matrix4& clip_from_world,
-                           uint32_t vertex) {
+                           UnitNormals unit_normals, uint32_t vertex) {
   const Mesh& mesh = scene.meshes[instance.mesh];
-  float object[3], normal[3], unit_normal[3] = {0, 0, 0};
+  float object[3], normal[3], turned[3] = {0, 0, 0};
   for (size_t k = 0; k < 3; ++k) object[k] = mesh.position[k][vertex];
   for (size_t k = 0; k < 3; ++k) normal[k] = component(mesh.normal[k], vertex, 0.0f);
   VertexValues out{};
   const InstanceRows rows = instance_rows(instance, clip_from_world);
   for (size_t r = 0; r < 4; ++r) out[kClip + r] = double(affine(rows.clip[r], object[0], object[1], object[2]));
   for (size_t r = 0; r < 3; ++r) out[kPosition + r] = double(affine(rows.world[r], object[0], object[1], object[2]));
-  world_normal(rows.normal, normal, unit_normal);
-  for (size_t k = 0; k < 3; ++k) out[kNormal + k] = double(unit_normal[k]);
+  world_normal(rows.normal, made_unit_at_vertex(unit_normals), normal, turned);
+  for (size_t k = 0; k < 3; ++k) out[kNormal + k] = double(turned[k]);
   // The base colour multiplies after interpolation: these are the vertex colours alone.
   for (size_t k = 0; k < 4; ++k) out[kAlbedo + k] = double(component(mesh.color[k], vertex, 1.0f));
   for (size_t set = 0; set <= mesh.more_uv.size(); ++set) {
@@ -164,7 +164,8 @@ ScalarFrame scalar_frame(const Scene& scene, const Pipeline& pipeline) {
     for (uint32_t triangle = 0; triangle < indices.size() / 3; ++triangle) {
       std::array<VertexValues, 3> values;
       for (size_t i = 0; i < 3; ++i)
-        values[i] = vertex_values(scene, drawn, clip_from_world, indices[3 * triangle + i]);
+        values[i] =
+            vertex_values(scene, drawn, clip_from_world, pipeline.gbuffer.unit_normals, indices[3 * triangle + i]);
       const WindowPolygon polygon = window_polygon(values, used, faced, viewport);
       const auto first = uint32_t(frame.triangles.size());
       for (const WindowTriangle& window : polygon.pieces) {
@@ -246,6 +247,25 @@ ValueRange value_at(const DrawnTriangle& t, size_t index, Interpolation interpol
   range.hi = std::max({v[0][index], v[1][index], v[2][index]});
   range.ulp = float_spacing(std::max(std::fabs(range.lo), std::fabs(range.hi)));
   return range;
+}
+
+/// Of a vector off by e in each component, the direction is off by at most 2 sqrt(3) e over the vector's length; the
+/// square, the sum, the root, the division and the product of floats add three roundings. Nothing is known of a vector
+/// whose square is no float.
+std::array<ValueRange, 3> normal_at(const DrawnTriangle& t, const GBufferState& state, int x, int y) {
+  std::array<ValueRange, 3> n;
+  Real length = 0;
+  double ulp = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    n[k] = value_at(t, kNormal + k, state.normal.interpolation, x, y);
+    length += n[k].value * n[k].value, ulp = std::max(ulp, n[k].ulp);
+  }
+  length = std::sqrt(length);
+  if (!made_unit_at_fragment(state.unit_normals)) return n;
+  if (length < 1e-18L) return {ValueRange{0, 2, -1, 1}, ValueRange{0, 2, -1, 1}, ValueRange{0, 2, -1, 1}};
+  for (ValueRange& r : n)
+    r = {r.value / length, 2 * std::sqrt(3.0) * ulp / double(length) + 4 * 0x1p-24, -1 - 0x1p-22, 1 + 0x1p-22};
+  return n;
 }
 
 float held_depth(const GeometryState& state, float z) {

@@ -77,8 +77,11 @@ long double depth_at(const DrawnTriangle& triangle, int x, int y);
 /// gl_FragCoord.w: 1 / w interpolated in the window.
 long double fragment_w(const DrawnTriangle& triangle, int x, int y);
 
+/// The normal at pixel (x, y), y up, made unit length there where the state says so.
+std::array<ValueRange, 3> normal_at(const DrawnTriangle& triangle, const GBufferState& state, int x, int y);
+
 /// The values of one vertex as floats: clip position, world position and normal, colour times base colour, uv.
 VertexValues vertex_values(const Scene& scene, const Instance& instance, const Matrix4& clip_from_world,
-                           uint32_t vertex);
+                           UnitNormals unit_normals, uint32_t vertex);
 
 }  // namespace trueshade::oracle

@@ -72,7 +72,7 @@ std::string forward_fragment_text(const Pipeline& p, const GlslOptions& options,
   if (design == GlDesign::forward_loop) text += "uniform int light_count;\n";
   if (design == GlDesign::forward_multipass) text += "uniform int light;  // -1: none, for a scene without lights\n";
   text += lights_text(p, options, design == GlDesign::forward_plus ? "records" : "lights") +
-          "  vec3 P = world_position;\n  vec3 stored_normal = " + normal_text(options) + ";\n" +
+          "  vec3 P = world_position;\n  vec3 stored_normal = " + normal_text(p, options) + ";\n" +
           material_text(model, options) + surface_text(model);
   if (design == GlDesign::forward_plus)
     text +=

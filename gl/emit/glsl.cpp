@@ -102,7 +102,7 @@ std::string geometry_fragment_text(const Pipeline& pipeline, const GlslOptions& 
     text += "  " + plane.output + " = ";
     if (plane.name == "position") text += "vec4(world_position, 1.0);\n";
     if (plane.name == "normal")
-      text += "vec4(" + normal_text(options) + (halves_normals(pipeline) ? " * 0.5 + 0.5" : "") + ", 1.0);\n";
+      text += "vec4(" + normal_text(pipeline, options) + (halves_normals(pipeline) ? " * 0.5 + 0.5" : "") + ", 1.0);\n";
     if (plane.name == "albedo") text += "albedo;\n";
     if (plane.name == "specular") text += "gloss;\n";
     if (plane.name == "emission")  // another format may stand in for one without alpha
@@ -114,6 +114,13 @@ std::string geometry_fragment_text(const Pipeline& pipeline, const GlslOptions& 
   }
   return text + "}\n";
 }
+
+constexpr const char* kUnitNormal = R"(
+vec3 unit_normal(vec3 n) {
+  float n2 = (n.x * n.x + n.y * n.y) + n.z * n.z;
+  return n * (n2 > 0.0 ? 1.0 / sqrt(n2) : 0.0);
+}
+)";
 
 /// docs/arithmetic.md section 13: a texel of a normal map in the frame of the triangle's texture coordinates.
 constexpr const char* kBentNormal = R"(uniform sampler2D normal_map;
@@ -210,6 +217,7 @@ std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, 
   if (direction == "in")
     for (const std::string& name : material_maps(pipeline.light_model, options))
       text += "uniform sampler2D " + name + "_map;\n";
+  if (direction == "in" && made_unit_at_fragment(g.unit_normals)) text += kUnitNormal;
   if (options.normal_maps && direction == "in") text += kBentNormal;
   return text;
 }
@@ -287,9 +295,10 @@ std::string albedo_text(const GlslOptions& options) {
          (options.maps ? lookup_text("color", options) + " * " : "") + "base";
 }
 
-std::string normal_text(const GlslOptions& options) {
-  const std::string straight =
+std::string normal_text(const Pipeline& pipeline, const GlslOptions& options) {
+  std::string straight =
       options.double_sided ? "(double_sided && !gl_FrontFacing ? -world_normal : world_normal)" : "world_normal";
+  if (made_unit_at_fragment(pipeline.gbuffer.unit_normals)) straight = "unit_normal(" + straight + ")";
   return options.normal_maps ? "bent_normal(" + straight + ", " + lookup_text("normal", options) + ".xyz)" : straight;
 }
 
@@ -321,16 +330,18 @@ layout(location = 15) in uvec2 instance_ids;
   text += R"(
 float affine(vec4 row, vec3 p) { return ((row.x * p.x + row.y * p.y) + row.z * p.z) + row.w; }
 float linear(vec3 row, vec3 v) { return (row.x * v.x + row.y * v.y) + row.z * v.z; }
-
+)";
+  if (made_unit_at_vertex(pipeline.gbuffer.unit_normals)) text += kUnitNormal;
+  text += R"(
 void main() {
   vec3 p = object_position;
   gl_Position = vec4(affine(clip_from_object[0], p), affine(clip_from_object[1], p), affine(clip_from_object[2], p),
                      affine(clip_from_object[3], p));
   vec3 n = vec3(linear(normal_from_object[0], object_normal), linear(normal_from_object[1], object_normal),
                 linear(normal_from_object[2], object_normal));
-  float n2 = linear(n, n);
-  world_normal = n * (n2 > 0.0 ? 1.0 / sqrt(n2) : 0.0);
 )";
+  text += made_unit_at_vertex(pipeline.gbuffer.unit_normals) ? "  world_normal = unit_normal(n);\n"
+                                                             : "  world_normal = n;\n";
   if (options.vertex_color) text += "  color = vertex_color;\n";
   if (!options.instance_uniforms) text += "  base = base_color;\n";
   if (!pipeline.gbuffer.position_from_depth)

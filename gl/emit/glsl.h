@@ -89,7 +89,7 @@ std::string glsl_float(float value);  ///< a literal that reads back as the same
 std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, const std::string& direction);
 /// The surface's colour and its normal, of any length, in a fragment shader with those varyings.
 std::string albedo_text(const GlslOptions& options);
-std::string normal_text(const GlslOptions& options);
+std::string normal_text(const Pipeline& pipeline, const GlslOptions& options);
 /// Whether fragments of surfaces read `materials`: kMaterialTexels RGBA32F texels a material, (specular colour,
 /// shininess), (emission, metallic) and (roughness, strength of the occlusion map, 1 for one that is shown unlit, 1 for
 /// one with a map of metal and roughness); under metallic_roughness the shininess is that of the roughness.

@@ -14,7 +14,7 @@ std::string loop_text(const Pipeline& p) { return light_loop_text(p, "lights", "
 
 /// The surface of a fragment of the scene itself.
 std::string forward_surface_text(const Pipeline& p, const GlslOptions& options) {
-  return "  vec3 P = world_position;\n  vec3 stored_normal = " + normal_text(options) + ";\n" +
+  return "  vec3 P = world_position;\n  vec3 stored_normal = " + normal_text(p, options) + ";\n" +
          material_text(p.light_model, options) + surface_text(p.light_model);
 }
 

@@ -86,6 +86,13 @@ bool flat_normals(Scene&, Pipeline& p, double) {
       p.gbuffer.normal.interpolation == Interpolation::flat ? Interpolation::smooth : Interpolation::flat;
   return true;
 }
+/// Both shaders where one is due is `normal-unit`, and says more.
+bool make_unit_at(Scene&, Pipeline& p, double shader) {
+  const UnitNormals made = p.gbuffer.unit_normals, asked = UnitNormals(int(shader));
+  if (made == asked || (made == UnitNormals::vertex && asked == UnitNormals::both)) return false;
+  p.gbuffer.unit_normals = UnitNormals(int(shader));
+  return true;
+}
 bool provoke(Scene&, Pipeline& p, double) {
   p.geometry.provoking = p.geometry.provoking == Provoking::last ? Provoking::first : Provoking::last;
   const GBufferState& g = p.gbuffer;
@@ -236,6 +243,10 @@ std::string way_name(double way) {
   constexpr const char* kNames[] = {"smooth", "flat", "noperspective"};
   return kNames[std::clamp(int(way), 0, 2)];
 }
+std::string shader_name(double shader) {
+  constexpr const char* kNames[] = {"the vertex shader alone", "the fragment shader alone", "both shaders"};
+  return kNames[std::clamp(int(shader), 0, 2)];
+}
 std::string filter_name(double way) { return kTextureFilters[std::clamp(int(way), 0, kMostFilters)].name; }
 std::string wrap_name(double way) { return std::string(kWrapNames[size_t(std::clamp(int(way), 0, 4))]); }
 
@@ -243,7 +254,7 @@ constexpr double kFaces[] = {0, 1, 2}, kFuncs[] = {1, 3, 4, 6, 7},
                  kFormats2[] = {double(Format::d16), double(Format::d24), double(Format::d32f)},
                  kDirectionNumbers[] = {0, 1, 2, 3, 4, 5, 6, 7}, kFilters[] = {0, 1, 2, 3, 4, 5, 6},
                  kBiases[] = {-2, -1, -0.5, 0.5, 1, 2}, kWraps[] = {0, 1, 2}, kOffsets2[] = {-2, -1, 1, 2},
-                 kNoPerspective[] = {2};
+                 kNoPerspective[] = {2}, kShaders[] = {0, 1, 2};
 
 using Fault2 = PlaneFault;
 constexpr auto kOne = Fault2::Search::one_of;
@@ -275,6 +286,8 @@ constexpr PlaneFault kFaults2[] = {
      kNoPerspective, 0, 0, way_name},
     {"normal-flat", "normals are flat where smooth ones are due, or smooth where flat ones are", Plane::all, nullptr,
      flat_normals},
+    {"normal-unit-shader", "normals are made unit length by %s", Plane::normal, nullptr, make_unit_at, nullptr, kOne,
+     kShaders, 0, 0, shader_name},
     {"provoking-vertex", "the other vertex provokes", Plane::all, nullptr, provoke},
     {"texture-filter", "textures are filtered `%s`", Plane::all, nullptr, filter, nullptr, kOne, kFilters, 0, 0,
      filter_name},

@@ -39,6 +39,7 @@ void Sketch::clear(const Pipeline& pipeline) {
 
 void Sketch::draw(const Scene& scene, const Pipeline& pipeline, const Mesh& mesh, uint32_t instance) {
   const GeometryState& state = pipeline.geometry;
+  unit_normals_ = pipeline.gbuffer.unit_normals;
   viewport_ = resolved_viewport(state, pipeline.width, pipeline.height);
   const Instance& drawn = scene.instances[instance];
   const InstanceRows rows = instance_rows(drawn, projection_of(scene.camera, state, pipeline.width, pipeline.height));
@@ -59,7 +60,7 @@ void Sketch::draw(const Scene& scene, const Pipeline& pipeline, const Mesh& mesh
       v.normal[r] =
           double(rows.normal[r][0]) * n[0] + double(rows.normal[r][1]) * n[1] + double(rows.normal[r][2]) * n[2];
     }
-    v.normal = unit(v.normal);
+    if (made_unit_at_vertex(pipeline.gbuffer.unit_normals)) v.normal = unit(v.normal);
   }
   // The sign of a front face's area, where y is up in clip space.
   const int front =
@@ -132,6 +133,7 @@ void Sketch::cover(size_t pixel, const std::array<double, 3>& b, const std::arra
     out.position[k] = (b[0] * v[0]->position[k] + b[1] * v[1]->position[k] + b[2] * v[2]->position[k]) / sum;
     out.normal[k] = turn * (b[0] * v[0]->normal[k] + b[1] * v[1]->normal[k] + b[2] * v[2]->normal[k]) / sum;
   }
+  if (made_unit_at_fragment(unit_normals_)) out.normal = unit(out.normal);
 }
 
 }  // namespace trueshade::oracle

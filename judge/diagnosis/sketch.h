@@ -39,6 +39,7 @@ class Sketch {
   std::vector<PlaneValues> values_;
   std::vector<Vertex> vertices_;
   Viewport viewport_;
+  UnitNormals unit_normals_ = UnitNormals::vertex;
 };
 
 }  // namespace trueshade::oracle

@@ -223,10 +223,11 @@ TriangleValues triangle_values(const Projector& projector, uint32_t instance, ui
   const Scene& scene = projector.scene();
   const Instance& drawn = scene.instances[instance];
   const Mesh& mesh = scene.meshes[drawn.mesh];
+  const UnitNormals unit_normals = projector.pipeline().gbuffer.unit_normals;
   TriangleValues t;
   for (size_t i = 0; i < 3; ++i) {
     const uint32_t vertex = mesh.indices[3 * size_t(triangle) + i];
-    t.value[i] = vertex_values(scene, drawn, projector.clip_from_world(), vertex);
+    t.value[i] = vertex_values(scene, drawn, projector.clip_from_world(), unit_normals, vertex);
     if (projector.profile().exact_vertices) continue;
     // Five roundings theirs (products, sums, the matrix element), four ours, per term of the sums.
     const double step = 5 * projector.profile().arithmetic.roundoff + 4 * 0x1p-24;
@@ -235,6 +236,13 @@ TriangleValues triangle_values(const Projector& projector, uint32_t instance, ui
       for (size_t c = 0; c < 3; ++c)
         size += std::fabs(double(drawn.world_from_object[int(c)][int(r)]) * double(mesh.position[c][vertex]));
       t.error[i][kPosition + r] = step * size;
+    }
+    if (!made_unit_at_vertex(unit_normals)) {
+      const InstanceRows rows = instance_rows(drawn, projector.clip_from_world());
+      for (size_t r = 0; r < 3; ++r)
+        for (size_t c = 0; c < 3 && !mesh.normal[c].empty(); ++c)
+          t.error[i][kNormal + r] += step * std::fabs(double(rows.normal[r][c]) * double(mesh.normal[c][vertex]));
+      continue;
     }
     // Of a normal m n of length l, each component errs by step * sum|m||n| before it is made unit: twice that over l
     // after, and the root's own error. sum|m||n| <= l * (ratio of the matrix's largest to smallest stretch).

@@ -62,7 +62,7 @@ void SurfaceValues::bend(const std::array<Range, 4>& bumps) {
   const TangentFrame& frame = form_->tangents();
   std::array<Range, 3> n, turned;
   for (size_t k = 0; k < 3; ++k) {
-    n[k] = attribute(kNormal + k, projector_.pipeline().gbuffer.normal.interpolation);
+    n[k] = straight_normal(int(k), projector_.pipeline().gbuffer.normal.interpolation);
     turned[k] = negated(n[k]);
   }
   const auto bent = [&](const std::array<Range, 3>& normal) {
@@ -89,9 +89,16 @@ Range SurfaceValues::attribute(size_t index, Interpolation interpolation) const 
   return point_.attribute(form_->attribute(piece_index_, index, interpolation), interpolation);
 }
 
+Range SurfaceValues::straight_normal(int k, Interpolation interpolation) const {
+  if (!made_unit_at_fragment(projector_.pipeline().gbuffer.unit_normals))
+    return attribute(kNormal + size_t(k), interpolation);
+  return normalized(attribute(kNormal, interpolation), attribute(kNormal + 1, interpolation),
+                    attribute(kNormal + 2, interpolation), k, projector_.profile());
+}
+
 Range SurfaceValues::normal(int k, Interpolation interpolation) const {
   if (bent_) return (*bent_)[size_t(k)];
-  const Range straight = attribute(kNormal + size_t(k), interpolation);
+  const Range straight = straight_normal(k, interpolation);
   if (!may_be_back()) return straight;
   return may_be_front() ? either(straight, negated(straight), piece_->front) : negated(straight);
 }
@@ -184,9 +191,21 @@ Range SurfaceValues::tinted(const Range& r, double tint) const {
   return {r.value * tint, std::min(a, b) - v, std::max(a, b) + v};
 }
 
+namespace {
+
+/// docs/arithmetic.md section 2.
+std::array<float, 3> unit_in_floats(const std::array<double, 3>& v) {
+  std::array<float, 3> n = {float(v[0]), float(v[1]), float(v[2])};
+  const float l2 = (n[0] * n[0] + n[1] * n[1]) + n[2] * n[2], inverse = l2 > 0 ? 1.0f / std::sqrt(l2) : 0.0f;
+  for (float& c : n) c *= inverse;
+  return n;
+}
+
+}  // namespace
+
 /// Of vectors a and b with |a - b| <= D the directions are at most 2 D / (|a| + |b|) apart, and |b| >= |a| - D. What
 /// computes a direction (GLSL's inversesqrt, a dot product before and a product behind it) is off by 4.5 roundings, for
-/// which 6 are taken.
+/// which 6 are taken. Where planes are exact and the vector is one float each, the direction is the renderer's own.
 Range normalized(const Range& x, const Range& y, const Range& z, int k, const Profile& profile) {
   const Range* const n[] = {&x, &y, &z};
   double length = 0, off = 0;
@@ -195,8 +214,10 @@ Range normalized(const Range& x, const Range& y, const Range& z, int k, const Pr
     length += r->value * r->value, off += most * most;
   }
   length = std::sqrt(length), off = std::sqrt(off);
-  if (!(length > off)) return {0, -1, 1};
-  const double value = n[k]->value / length;
+  if (!(length > off)) return length > 0 || off > 0 ? Range{0, -1, 1} : Range{0, 0, 0};
+  const double value =
+      profile.exact_planes ? double(unit_in_floats({x.value, y.value, z.value})[size_t(k)]) : n[k]->value / length;
+  if (profile.exact_planes && off == 0) return {value, value, value};
   const double error = 2 * off / (2 * length - off) + 6 * std::max(profile.arithmetic.roundoff, 0x1p-24);
   return {value, value - error, value + error};
 }

@@ -52,6 +52,7 @@ class SurfaceValues {
 
  private:
   bool reads(MaterialMap map) const;
+  Range straight_normal(int k, Interpolation interpolation) const;  ///< of the front, before a map bends it
   const Range* texel(MaterialMap map) const { return texels_[map] ? texels_[map]->data() : nullptr; }
   Range tinted(const Range& r, double tint) const;
   void bend(const std::array<Range, 4>& bumps);

@@ -17,6 +17,7 @@
 #include "raster/surfaces/back_faces.h"
 #include "raster/surfaces/material_maps-inl.h"
 #include "raster/surfaces/surface_task.h"
+#include "raster/surfaces/unit_normals-inl.h"
 #include "raster/triangles/clipped_fan.h"
 #include "raster/triangles/edge_vectors-inl.h"
 #include "raster/triangles/interpolate-inl.h"
@@ -139,6 +140,7 @@ inline void interpolate_piece(const SurfaceTask& task, const ClippedPiece& piece
   }
   for (uint32_t lanes = piece.turned ? lane_bits(D64(), owned) : 0; lanes != 0; lanes &= lanes - 1)
     turn_normal(task.out, at + std::countr_zero(lanes));
+  if (made_unit_at_fragment(task.planes.unit_normals)) make_normals_unit(df, mine, at, task.out);
   if (maps.textured()) map_piece(piece, w, owned, at, maps, PixelFrames{task.work, at}, task.out);
 }
 

@@ -14,6 +14,7 @@
 #include "raster/surfaces/surface_planes-inl.h"
 #include "raster/surfaces/surface_task.h"
 #include "raster/surfaces/surfaces.h"
+#include "raster/surfaces/unit_normals-inl.h"
 #include "raster/surfaces/visible_vertices-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -77,6 +78,7 @@ void interpolate_tile(const SurfaceTask& task) {
         hn::Store(triangles.attribute(work.stream[c].data(), g->plane.interpolation, provoking), df,
                   task.out.plane[c] + i);
     if (task.in.view.faces.any_double_sided()) turn_normals(task, triangles, i);
+    if (made_unit_at_fragment(task.planes.unit_normals)) make_normals_unit(df, i, task.out);
     if (task.in.view.maps.textured()) map_pixels(task, triangles, provoking, i);
   }
 }

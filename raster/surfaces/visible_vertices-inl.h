@@ -73,7 +73,7 @@ inline void fill_slot(const SurfaceTask& task, uint32_t position, int32_t slot) 
   for (size_t i = at; i < at + cluster.vertices; i += hn::Lanes(d)) {
     V32 object[6], world[6];
     for (size_t c = 0; c < 6; ++c) object[c] = hn::LoadU(d, &work.stream[c][i]);
-    to_world(transform, object, object + 3, world);
+    to_world(transform, task.planes.unit_normals, object, object + 3, world);
     for (size_t c = 0; c < 6; ++c) hn::StoreU(world[c], d, &work.stream[c][i]);
   }
 }

@@ -8,25 +8,26 @@
 
 #include <hwy/highway.h>
 
+#include "raster/surfaces/unit_normals-inl.h"
 #include "raster/triangles/vertex_stage-inl.h"
+#include "scenes/pipeline/pipeline.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// World positions and unit world normals, 0 where a normal vanishes, of vectors of object-space ones.
+/// World positions and normals of vectors of object-space ones.
 template <class V>
-HWY_INLINE void to_world(const InstanceTransform& t, const V position[3], const V normal[3], V out[6]) {
+HWY_INLINE void to_world(const InstanceTransform& t, UnitNormals unit, const V position[3], const V normal[3],
+                         V out[6]) {
   const hn::DFromV<V> d;
-  V n[3];
+  V* const n = out + 3;
   for (int r = 0; r < 3; ++r) {
     out[r] = affine_row(t.world[r], position[0], position[1], position[2]);
     const V a = hn::Mul(hn::Set(d, t.normal[r][0]), normal[0]), b = hn::Mul(hn::Set(d, t.normal[r][1]), normal[1]);
     n[r] = hn::Add(hn::Add(a, b), hn::Mul(hn::Set(d, t.normal[r][2]), normal[2]));
   }
-  const V l2 = hn::Add(hn::Add(hn::Mul(n[0], n[0]), hn::Mul(n[1], n[1])), hn::Mul(n[2], n[2]));
-  const V inverse = hn::IfThenElseZero(hn::Gt(l2, hn::Zero(d)), hn::Div(hn::Set(d, 1.0f), hn::Sqrt(l2)));
-  for (int r = 0; r < 3; ++r) out[3 + r] = hn::Mul(n[r], inverse);
+  if (made_unit_at_vertex(unit)) make_unit(n);
 }
 
 }  // namespace trueshade::HWY_NAMESPACE

@@ -22,6 +22,13 @@ enum class ClipDepth : uint8_t { negative_one_to_one, zero_to_one };
 enum class Interpolation : uint8_t { smooth, flat, noperspective };
 enum class Provoking : uint8_t { last, first };
 
+/// Which shader makes normals unit length. Without the vertex shader, longer normals (M^-T n is long where an object is
+/// scaled down) draw the directions between vertices to theirs; without the fragment shader, interpolated normals are
+/// shorter than 1 between vertices.
+enum class UnitNormals : uint8_t { vertex, fragment, both };
+constexpr bool made_unit_at_vertex(UnitNormals shader) { return shader != UnitNormals::fragment; }
+constexpr bool made_unit_at_fragment(UnitNormals shader) { return shader != UnitNormals::vertex; }
+
 /// How lights come to pixels. Spelled with hyphens outside C++.
 enum class Strategy : uint8_t {
   forward_multipass,  ///< every object once a light, added to the target after each
@@ -81,6 +88,7 @@ struct PlaneState {
 struct GBufferState {
   PlaneState position, normal, albedo{Format::rgba8, Interpolation::smooth}, uv;
   Format specular = Format::rgba32f, emission = Format::rgba32f;
+  UnitNormals unit_normals = UnitNormals::vertex;
   bool position_from_depth = false;  ///< rebuilt from the stored depth (docs/arithmetic.md); `position` is not read
   HalfRound half_round = HalfRound::toward_zero;
   bool operator==(const GBufferState&) const = default;

@@ -78,6 +78,7 @@ void read_gbuffer(const json::Node& node, GBufferState& g) {
   read_plane(node, "uv", g.uv, kPositionFormats);
   read_format(node, "specular_format", g.specular, kSpecularFormats);
   read_format(node, "emission_format", g.emission, kEmissionFormats);
+  read_choice(node, "unit_normals", g.unit_normals, kUnitNormals);
   read_flag(node, "position_from_depth", g.position_from_depth);
   read_choice(node, "half_round", g.half_round, kHalfRounds);
 }

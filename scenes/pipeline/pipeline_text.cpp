@@ -75,6 +75,7 @@ void write_gbuffer(std::string& out, const GBufferState& g) {
   write_plane(w.key("uv"), g.uv);
   w.put("specular_format", info(g.specular).name);
   w.put("emission_format", info(g.emission).name);
+  w.put("unit_normals", g.unit_normals, kUnitNormals);
   w.put("position_from_depth", g.position_from_depth);
   w.put("half_round", g.half_round, kHalfRounds);
 }

@@ -20,6 +20,7 @@ inline constexpr std::string_view kClipOrigins[] = {"lower_left", "upper_left"};
 inline constexpr std::string_view kClipDepths[] = {"negative_one_to_one", "zero_to_one"};
 inline constexpr std::string_view kInterpolations[] = {"smooth", "flat", "noperspective"};
 inline constexpr std::string_view kProvoking[] = {"last", "first"};
+inline constexpr std::string_view kUnitNormals[] = {"vertex", "fragment", "both"};
 inline constexpr std::string_view kExtents[] = {"unbounded", "range", "box", "sphere", "cone"};
 inline constexpr std::string_view kHalfRounds[] = {"toward_zero", "nearest"};
 inline constexpr std::string_view kFalloffs[] = {"linear_range", "quadratic",   "none",
@@ -51,7 +52,8 @@ inline constexpr std::string_view kGeometryKeys[] = {"viewport",
                                                      "polygon_offset_units"};
 inline constexpr std::string_view kViewportKeys[] = {"x", "y", "width", "height"};
 inline constexpr std::string_view kGBufferKeys[] = {
-    "position", "normal", "albedo", "uv", "specular_format", "emission_format", "position_from_depth", "half_round"};
+    "position",  "normal", "albedo", "uv", "specular_format", "emission_format", "unit_normals", "position_from_depth",
+    "half_round"};
 inline constexpr std::string_view kPlaneKeys[] = {"format", "interpolation"};
 inline constexpr std::string_view kLightModelKeys[] = {
     "renormalize", "specular_masked", "shininess", "specular_color",  "falloff", "order",    "alpha_from_albedo",

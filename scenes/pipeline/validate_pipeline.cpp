@@ -69,6 +69,7 @@ void check_gbuffer(const GBufferState& g) {
     require_enumerator(plane->interpolation, Interpolation::noperspective, "gbuffer: interpolation");
   require_format(g.specular, kSpecularFormats, "gbuffer.specular");
   require_format(g.emission, kEmissionFormats, "gbuffer.emission");
+  require_enumerator(g.unit_normals, UnitNormals::both, "gbuffer.unit_normals");
   require_enumerator(g.half_round, HalfRound::nearest, "gbuffer.half_round");
 }
 

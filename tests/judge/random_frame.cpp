@@ -234,6 +234,7 @@ RandomFrame random_frame(uint64_t seed, FrameTheme theme) {
   if (is_forward(frame.pipeline.strategy) && frame.pipeline.transparency.mode == TransparencyMode::into_albedo)
     frame.pipeline.transparency.mode = TransparencyMode::after_lights;
   keep_uncut(frame);
+  frame.pipeline.gbuffer.unit_normals = any_of(random, {UnitNormals::vertex, UnitNormals::fragment, UnitNormals::both});
   validate(frame.scene);
   validate(frame.pipeline);
   return frame;

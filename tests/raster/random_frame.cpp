@@ -98,6 +98,7 @@ Pipeline random_pipeline(Random& random) {
   pipeline.gbuffer.normal.interpolation = Interpolation(random() % 3);
   pipeline.gbuffer.albedo.interpolation = Interpolation(random() % 3);
   pipeline.gbuffer.uv.interpolation = Interpolation(random() % 3);
+  pipeline.gbuffer.unit_normals = UnitNormals(random() % 3);
   return pipeline;
 }
 

@@ -36,10 +36,11 @@ void check_pixel(const oracle::ScalarFrame& frame, const oracle::Fragment& fragm
           std::max({code, 0x1p-24, 0x1p-23 * double(std::fabs(fragment.depth)), double(fragment.depth_bound)}));
   if (fragment.depth_bound == 0) REQUIRE(planes.depth[i] == fragment.depth_code);
   const GBufferState& g = pipeline.gbuffer;
+  const std::array<oracle::ValueRange, 3> normal = normal_at(t, g, x, y);
   for (size_t k = 0; k < 3; ++k) {
     CAPTURE(k);
     check_value(value_at(t, oracle::kPosition + k, g.position.interpolation, x, y), planes.position[i][k]);
-    check_value(value_at(t, oracle::kNormal + k, g.normal.interpolation, x, y), planes.normal[i][k]);
+    check_value(normal[k], planes.normal[i][k]);
   }
   for (size_t k = 0; k < 2; ++k) check_value(value_at(t, oracle::kUv + k, g.uv.interpolation, x, y), planes.uv[i][k]);
   const glm::vec4& base = scene.materials[scene.instances[fragment.instance].material].base_color;

@@ -73,7 +73,9 @@ class Geometry:
         v = mesh["triangles"][triangle]
         position = tri.transformed(world, mesh["position"][:, v])
         x, y, z = mesh["normal"][:, v]
-        turned = unit_rows(np.stack([(m[0] * x + m[1] * y) + m[2] * z for m in normal], axis=1))
+        turned = np.stack([(m[0] * x + m[1] * y) + m[2] * z for m in normal], axis=1)
+        if self.scene["pipeline"]["gbuffer"]["unit_normals"] != "fragment":
+            turned = unit_rows(turned)
         color = np.ones((3, 4), f32) if mesh["color"] is None else mesh["color"][:, v].T
         sets = [np.zeros((3, 2), f32) if uv is None else uv[:, v].T for uv in mesh["uv"]]
         return [[float(a) for a in row] for row in np.concatenate([position, turned, color] + sets, axis=1)]
@@ -168,11 +170,13 @@ def is_back(scene, f):
 
 
 def normal_of(scene, f):
-    state = scene["pipeline"]["gbuffer"]["normal"]
-    normal = np.array([f.attribute(3 + k, state["interpolation"]) for k in range(3)], f32)
+    state = scene["pipeline"]["gbuffer"]
+    normal = np.array([f.attribute(3 + k, state["normal"]["interpolation"]) for k in range(3)], f32)
     material = material_of(scene, f)
     if material["double_sided"] and is_back(scene, f):
         normal = -normal
+    if state["unit_normals"] != "vertex":
+        normal = unit_rows(normal[None])[0]
     texel = texel_at(scene, f, "normal")
     return normal if texel is None else bent(scene, f, normal, texel, float(material["normal_scale"]))
 

@@ -31,6 +31,7 @@ Pipeline strange_pipeline() {
                 0.25f};
   p.gbuffer.normal = {Format::rgb16f, Interpolation::noperspective};
   p.gbuffer.uv.interpolation = Interpolation::flat;
+  p.gbuffer.unit_normals = UnitNormals::both;
   p.gbuffer.position_from_depth = true;
   p.gbuffer.half_round = HalfRound::nearest;
   p.light_model.shininess = 0.1f;
@@ -101,7 +102,7 @@ TEST_CASE("the text of the default pipeline stays as it is") {
       R"("gbuffer":{"position":{"format":"rgba32f","interpolation":"smooth"},"normal":)"
       R"({"format":"rgba32f","interpolation":"smooth"},"albedo":{"format":"rgba8","interpolation":"smooth"},"uv":)"
       R"({"format":"rgba32f","interpolation":"smooth"},"specular_format":"rgba32f","emission_format":"rgba32f",)"
-      R"("position_from_depth":false,"half_round":"toward_zero"},)"
+      R"("unit_normals":"vertex","position_from_depth":false,"half_round":"toward_zero"},)"
       R"("light_model":{"renormalize":true,"specular_masked":true,"shininess":32,"specular_color":[0.25,0.25,0.25],)"
       R"("falloff":"linear_range","order":"factored","alpha_from_albedo":false,"cone":"none","diffuse":"clamped",)"
       R"("specular":"blinn_phong","specular_source":"model","viewer":"local","emission":false,)"

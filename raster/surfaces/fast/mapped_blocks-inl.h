@@ -36,6 +36,7 @@ struct MappedBlocks {
   const TileDraws& in;
   const TileRect& rect;
   const WantedValues wanted;  ///< uv at values kUvValue and on
+  const UnitNormals unit_normals;
   const VisibilityTile& visible;
   VisibleTriangles& seen;
   SurfaceTile& out;
@@ -128,11 +129,15 @@ struct MappedBlocks {
     constexpr uint32_t kNormalBits = 7u << kNormalValue;
     if ((set_up.constant & kNormalBits) != kNormalBits) return;
     const bool turned = in.view.faces.any_double_sided() && is_turned_whole(in.view, seen, triangle);
-    const auto normal = [&](int c) {
+    V32 normal[3];
+    for (int c = 0; c < 3; ++c) {
       const float straight = float(set_up.a0[kNormalValue + c]) + 0.0f;
-      return hn::Set(D64(), double(turned ? -straight : straight));
-    };
-    const BumpFrame bump = bump_frame(frame, {normal(0), normal(1), normal(2)});
+      normal[c] = hn::Set(D32(), turned ? -straight : straight);
+    }
+    if (made_unit_at_fragment(unit_normals)) make_unit(normal);
+    const D64 d;
+    const BumpFrame bump =
+        bump_frame(frame, {hn::PromoteTo(d, normal[0]), hn::PromoteTo(d, normal[1]), hn::PromoteTo(d, normal[2])});
     put(bump.t, value + MappedTriangle::kBumpFrame), put(bump.b, value + MappedTriangle::kBumpFrame + 3);
     value[MappedTriangle::kOneNormal] = hn::AllTrue(D64(), bump.bends) ? 1.0 : 0.0;
   }

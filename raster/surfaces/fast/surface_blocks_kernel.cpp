@@ -13,6 +13,7 @@
 #include "raster/surfaces/fast/visible_triangles-inl.h"
 #include "raster/surfaces/surface_planes-inl.h"
 #include "raster/surfaces/surface_task.h"
+#include "raster/surfaces/unit_normals-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
@@ -31,6 +32,11 @@ bool reads_more_uv(const TileDraws& in, const VisibleTriangles& seen) {
                      [&](const VisibleCluster& c) { return maps.material[c.material - 1].uv_sets > 1; });
 }
 
+void make_tile_unit(const SurfaceTask& task) {
+  const DF d;
+  for (int i = 0; i < task.pixels(); i += int(hn::Lanes(d))) make_normals_unit(d, i, task.out);
+}
+
 bool resolve_by_blocks(const SurfaceTask& task) {
   if (!task.in.fast_paths || !all_smooth(task)) return false;
   const TileDraws& in = task.in;
@@ -39,7 +45,7 @@ bool resolve_by_blocks(const SurfaceTask& task) {
   const std::vector<Mesh>& meshes = in.scene.meshes;
   const bool colored = std::any_of(meshes.begin(), meshes.end(), [](const Mesh& mesh) { return mesh.has_color(); });
   const bool textured = in.view.maps.textured();
-  const WantedStreams wanted{task.reads_uv, colored};
+  const WantedStreams wanted{task.reads_uv, colored, task.planes.unit_normals};
   find_triangles(in, task.rect, task.visible, seen, out);
   if (out.covered_pixels == 0) return true;
   if (reads_more_uv(in, seen)) return false;
@@ -51,9 +57,10 @@ bool resolve_by_blocks(const SurfaceTask& task) {
   const WantedValues values = wanted_values(group, wanted);
   BlockInterpolation{in, task.rect, group, groups, values, task.visible, seen, out}.run();
   if (in.view.faces.any_double_sided()) TurnedNormals{in, task.visible, seen, out}.run();
+  if (made_unit_at_fragment(task.planes.unit_normals)) make_tile_unit(task);
   if (textured) {
     for (int c = 0; c < 4 && !colored; ++c) std::fill_n(out.plane[kAlbedo + c], task.pixels(), 1.0f);
-    MappedBlocks{in, task.rect, values, task.visible, seen, out}.run();
+    MappedBlocks{in, task.rect, values, task.planes.unit_normals, task.visible, seen, out}.run();
   }
   if (task.planes.position_from_depth) rebuild_positions(task.in.view, task.rect, task.visible.depth, task.out);
   store_interpolated(task);

@@ -28,9 +28,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 inline constexpr int kRecordStream[2][kStreams] = {{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, kUv, kUv + 1},
                                                    {0, 1, 2, 3, 4, 5, kUv, kUv + 1, 6, 7, 8, 9}};
 
-/// Attributes that are interpolated beside position and normal.
+/// Attributes that are interpolated beside position and normal, and where normals are made unit length.
 struct WantedStreams {
   bool uv, color;
+  UnitNormals unit_normals;
 
   const int* order() const { return kRecordStream[uv ? 1 : 0]; }
   int count() const { return kAlbedo + (uv ? 2 : 0) + (color ? 4 : 0); }
@@ -141,7 +142,7 @@ inline void transform_used(const TileDraws& in, const TileRect& rect, WantedStre
   for (int i = 0; i < used.count; i += lanes) {
     VWF s[6], world[6];
     for (int c = 0; c < 6; ++c) s[c] = hn::Load(d, used.stream[c] + i);
-    to_world(in.view.instances[instance], s, s + 3, world);
+    to_world(in.view.instances[instance], wanted.unit_normals, s, s + 3, world);
     const auto value = [&](int k) { return hn::Load(d, used.stream[wanted.order()[k]] + i); };
     const size_t at = used.first + size_t(i);
     hn::StoreInterleaved4(world[0], world[1], world[2], world[3], d, half[0]);

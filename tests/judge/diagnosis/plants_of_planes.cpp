@@ -363,6 +363,11 @@ std::vector<Plant> made_planes() {
     p.gbuffer.normal.interpolation = Interpolation::flat;
     return true;
   });
+  in("normals made unit by the fragment shader alone", {"normal-unit-shader"}, [](Scene&, Pipeline& p, int) {
+    p.gbuffer.unit_normals = UnitNormals::fragment;
+    return true;
+  });
+  all.back().base = stretched;
   in(
       "an object missing", {"object-missing"},
       [](Scene& s, Pipeline&, int v) {
