@@ -160,6 +160,17 @@ void drawn_twice(Scene& s, Pipeline&) {
 void stretched(Scene& s, Pipeline&) {
   for (Instance& i : s.instances) i.world_from_object[1] *= 1.5f;
 }
+/// Normals of boxes as of round things: they differ from corner to corner, and not by a symmetry of the box alone.
+void rounded_and_stretched(Scene& s, Pipeline& p) {
+  for (Mesh& mesh : s.meshes)
+    for (size_t i = 0; i < mesh.vertex_count(); ++i) {
+      V n{mesh.position[0][i] + 0.3f, mesh.position[1][i] + 0.2f, mesh.position[2][i] + 0.1f};
+      n += V{mesh.normal[0][i], mesh.normal[1][i], mesh.normal[2][i]};
+      n *= 1 / std::max(1e-6f, std::sqrt(dot_of(n, n)));
+      for (size_t k = 0; k < 3; ++k) mesh.normal[k][i] = n[int(k)];
+    }
+  stretched(s, p);
+}
 void culled_back(Scene&, Pipeline& p) { p.geometry.cull_face = CullFace::back; }
 
 std::vector<Plant> made_planes() {
@@ -367,7 +378,7 @@ std::vector<Plant> made_planes() {
     p.gbuffer.unit_normals = UnitNormals::fragment;
     return true;
   });
-  all.back().base = stretched;
+  all.back().base = rounded_and_stretched;
   in(
       "an object missing", {"object-missing"},
       [](Scene& s, Pipeline&, int v) {
