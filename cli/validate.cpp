@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "cli/commands.h"
 #include "cli/driver_capture.h"
 #include "cli/judged_mask.h"
+#include "cli/option_values.h"
 #include "cli/preparation.h"
 #include "cli/shell_words.h"
 #include "cli/validation.h"
@@ -117,12 +119,21 @@ void say_files(const ValidationOptions& options, const Validation& v) {
   if (options.report) say_written(*options.report, "HTML report", output);
 }
 
+void check_outputs(const ValidationOptions& options) {
+  if (options.report) check_writable(*options.report);
+  std::error_code unknown;
+  for (const std::string& path : options.saved) {
+    check_writable(path);
+    if (std::filesystem::equivalent(path, options.mask.file, unknown))
+      throw usage("--save", "'" + path + "' is the mask", "give it another name");
+  }
+}
+
 }  // namespace
 
 bool judge_opengl(const ValidationOptions& options) {
   check_pipeline(options);
-  if (options.report) check_writable(*options.report);
-  for (const std::string& path : options.saved) check_writable(path);
+  check_outputs(options);
   Validation v;
   v.lenient = options.lenient;
   std::optional<Activity> activity("reading the capture");

@@ -275,6 +275,9 @@ TEST_CASE("validate judges nothing of what a mask, or an object, leaves out") {
   write_npy(folder.path("small.npy"), even(1, 1, 3, 3), "|u1");
   check_refused(judged({"--mask", "small.npy"}, ""), 3, "the mask is 3x3, and what it masks is 64x48");
   check_refused(judged({"--mask", "good.exr"}, ""), 3, "of the mask is");
+  check_refused(
+      run({"validate", "builtin:cornell", "--driver", "llvmpipe", "--mask", "good.exr", "--save", "./good.exr"}), 2,
+      "is the mask");
 }
 
 }  // namespace trueshade
