@@ -38,6 +38,6 @@ TEST_CASE("llvmpipe is not convicted under states drawn at random") {
 }
 
 TEST_CASE("Of two thousand frames of llvmpipe's under states drawn at random none is convicted", "[long]") {
-  check_llvmpipe(FrameTheme::any, 1000, long_count(2000));
-  for (const FrameTheme theme : kThemes) check_llvmpipe(theme, 1000, long_count(2000) / 10);
+  check_llvmpipe(FrameTheme::any, long_first(1000), long_count(2000));
+  for (const FrameTheme theme : kThemes) check_llvmpipe(theme, long_first(1000), long_count(2000) / 10);
 }
