@@ -39,10 +39,12 @@ struct Lookup {
   }
 };
 
-/// Difference of two texels, for so much of a cause.
+/// Difference of two texels, for so much of a cause; what doubles are off is none.
 Rgba slope(const Rgba& to, const Rgba& from, double amount) {
-  Rgba out;
-  for (size_t c = 0; c < 4; ++c) out[c] = (to[c] - from[c]) / amount;
+  constexpr double kRounding = 1e-12;
+  Rgba out{};
+  for (size_t c = 0; c < 4; ++c)
+    if (const double d = to[c] - from[c]; std::fabs(d) > kRounding * (1 + std::fabs(to[c]))) out[c] = d / amount;
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <glm/geometric.hpp>
 
+#include "judge/legal/texel_changes.h"
 #include "judge/stages/validate.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/builtin/pcg32.h"
@@ -218,7 +219,8 @@ int convicted_of(int count, uint64_t first_seed) {
     const Verdict v = judged(scene, pipeline, testing::loose_frame(scene, pipeline, l, first_seed + uint64_t(i)));
     if (v.violations() == 0 && !v.convicted()) continue;
     ++alarms;
-    WARN("image of seed " << first_seed + uint64_t(i) << ": " << v.violations() << " violations; " << v.evidence_line());
+    WARN("image of seed " << first_seed + uint64_t(i) << ": " << v.violations() << " violations; "
+                          << v.evidence_line());
   }
   return alarms;
 }
@@ -226,6 +228,19 @@ int convicted_of(int count, uint64_t first_seed) {
 }  // namespace
 
 TEST_CASE("Lookups that go one legal way all over an image are not convicted") { CHECK(convicted_of(40, 1) == 0); }
+
+TEST_CASE("Maps that agree on one order of decoding are not convicted where the other order leaves as little") {
+  CHECK(convicted_of(1, 446) == 0);
+}
+
+TEST_CASE("A texel that is read alone shows no order of filtering and decoding") {
+  const Texture texture = pattern(Pattern::noise, TextureFormat::srgb8_a8, 8, 1);
+  for (int i = 0; i < 64; ++i) {
+    const TexturePlace place{(i + 0.37L) / 64, 0.41L, 0.004L, 0.001L, 0.001L, 0.004L};
+    const auto read = texel_changes(texture, sampler_of(Filter::nearest, MipFilter::nearest), place, false, {});
+    if (read) CHECK(read->change[size_t(TexelCause::order)] == TexelChanges::Rgba{});
+  }
+}
 
 // LEGAL_IMAGES=N in the environment judges N, from the seed LEGAL_FIRST on.
 TEST_CASE("Of ten thousand images whose lookups go one legal way at most one is convicted", "[long]") {
