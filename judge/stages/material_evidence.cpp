@@ -73,9 +73,10 @@ void add_tests(const Tested& t, double deviations, bool gains_alone, std::vector
   const std::vector<CauseEstimate> estimates = estimate_causes(t.list, bounds);
   for (size_t i = 0; i < estimates.size(); ++i) {
     const TestedCause& cause = t.causes[i];
-    if (cause.name.empty() || !std::isfinite(estimates[i].error) || (gains_alone && cause.name != "gain")) continue;
+    const double error = estimates[i].error_at(deviations);
+    if (cause.name.empty() || !std::isfinite(error) || (gains_alone && cause.name != "gain")) continue;
     MaterialEvidence e = t.of;
-    e.map = t.maps[i], e.cause = cause.name, e.value = estimates[i].value, e.error = estimates[i].error;
+    e.map = t.maps[i], e.cause = cause.name, e.value = estimates[i].value, e.error = error;
     e.least = bounds[i].high + deviations * e.error;
     e.against = estimates[i].beyond > deviations * e.error && std::fabs(e.value) > e.least;
     found.push_back(std::move(e));
@@ -135,17 +136,20 @@ class MapsByWay {
   /// By the way that leaves least.
   const std::vector<Tested>& tested() const { return tested_; }
 
-  /// By the other decoder of sRGB, and by the other order of decoding and filtering: which of them it was may show less
-  /// than what they do to a gain, and what maps of one order show by it, those of the other do by the other.
-  struct Otherwise {
-    bool other_order;
-    std::vector<Tested> tested;
-  };
-  std::vector<Otherwise> otherwise() const {
+  /// By the other decoder of sRGB: which of them it was shows less than what a decoder does to a gain.
+  std::vector<std::vector<Tested>> by_other_decoder() const {
     if (!has_srgb_) return {};
-    return {
-        {false, by(with_other_decoder(best_.way))}, {true, by(other_.way)}, {true, by(with_other_decoder(other_.way))}};
+    return {by(with_other_decoder(best_.way))};
   }
+
+  /// By the other order of decoding and filtering, by both decoders.
+  std::vector<std::vector<Tested>> by_other_order() const {
+    if (!has_srgb_) return {};
+    return {by(other_.way), by(with_other_decoder(other_.way))};
+  }
+
+  /// Whether that order may be the picture's.
+  bool is_order_open() const { return other_.left < 1.5 * best_.left; }
 
  private:
   std::vector<Tested> by(const TexelWay& way) const { return by(way, stage_.textured); }
@@ -214,20 +218,28 @@ std::vector<MaterialEvidence> tests_of(const std::vector<Tested>& tested, double
   return found;
 }
 
-/// What stands against maps by one way must do so by the others. An order is against some map by either order: pictures
-/// of one order have none by their own.
+bool has_order(const std::vector<MaterialEvidence>& found) {
+  return std::any_of(found.begin(), found.end(), [](const auto& e) { return e.against && e.cause == "order"; });
+}
+
+/// What stands against maps by one way must do so by the others that may be the picture's. Orders are mixed where some
+/// map is against either of them: of a picture of one order none is against that one.
 void doubt(const MapsByWay& maps, double deviations, std::vector<MaterialEvidence>& found) {
-  const auto is_against = [](const MaterialEvidence& e) { return e.against; };
-  if (std::none_of(found.begin(), found.end(), is_against)) return;
-  for (const MapsByWay::Otherwise& otherwise : maps.otherwise()) {
-    const std::vector<MaterialEvidence> others = tests_of(otherwise.tested, deviations);
-    for (MaterialEvidence& e : found)
+  if (std::none_of(found.begin(), found.end(), [](const auto& e) { return e.against; })) return;
+  const auto keep = [&](const std::vector<Tested>& tested, bool same_order) {
+    const std::vector<MaterialEvidence> others = tests_of(tested, deviations);
+    for (MaterialEvidence& e : found) {
+      const bool is_order = e.cause == "order";
+      if (!e.against || (!same_order && !is_order && !maps.is_order_open())) continue;
       e.against =
-          e.against && std::any_of(others.begin(), others.end(), [&](const MaterialEvidence& o) {
-            const bool is_same = o.material == e.material && o.plane == e.plane && o.map == e.map;
-            return o.against && o.cause == e.cause && (is_same || (otherwise.other_order && e.cause == "order"));
+          (is_order && !same_order) ? has_order(others) : std::any_of(others.begin(), others.end(), [&](const auto& o) {
+            return o.against && o.cause == e.cause && o.material == e.material && o.plane == e.plane && o.map == e.map;
           });
-  }
+    }
+  };
+  for (const std::vector<Tested>& tested : maps.by_other_decoder()) keep(tested, true);
+  if (!maps.is_order_open() && !has_order(found)) return;
+  for (const std::vector<Tested>& tested : maps.by_other_order()) keep(tested, false);
 }
 
 }  // namespace

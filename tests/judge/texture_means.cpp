@@ -191,6 +191,17 @@ TEST_CASE(
   CHECK(v.evidence_line().find("another order") != std::string::npos);
 }
 
+TEST_CASE("A nearest texel is in doubt where that of the next level is, which is read as well") {
+  const Texture texture = pattern(Pattern::noise, TextureFormat::rgba8, 8, 1);
+  const long double slope = 1.4L / 128;
+  const auto is_told = [&](long double u) {
+    const TexturePlace place{u, 0.3L, slope, 0, 0, slope};
+    return texel_changes(texture, sampler_of(Filter::nearest, MipFilter::linear), place, false, {}).has_value();
+  };
+  CHECK(is_told(64.25L / 128));
+  CHECK_FALSE(is_told(64.02L / 128));  // 0.01 of a texel off in level 1
+}
+
 namespace {
 
 testing::TextureWay random_way(Pcg32& random) {
