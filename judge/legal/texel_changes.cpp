@@ -39,10 +39,12 @@ struct Lookup {
   }
 };
 
-/// Difference of two texels, for so much of a cause.
+/// Difference of two texels, for so much of a cause; what doubles are off is none.
 Rgba slope(const Rgba& to, const Rgba& from, double amount) {
-  Rgba out;
-  for (size_t c = 0; c < 4; ++c) out[c] = (to[c] - from[c]) / amount;
+  constexpr double kRounding = 1e-12;
+  Rgba out{};
+  for (size_t c = 0; c < 4; ++c)
+    if (const double d = to[c] - from[c]; std::fabs(d) > kRounding * (1 + std::fabs(to[c]))) out[c] = d / amount;
   return out;
 }
 
@@ -60,7 +62,11 @@ bool is_sure(const Texture& texture, const Sampler& s, double u, double v, doubl
   const bool levels = lod > 0 && s.mip_filter != MipFilter::none;
   const auto level = size_t(levels ? std::clamp<double>(lod, 0, double(texture.levels.size() - 1)) : 0);
   const auto apart = [](double x) { return std::fabs(x - std::nearbyint(x)); };
-  return apart(u * texture.levels[level].width) > kDoubt && apart(v * texture.levels[level].height) > kDoubt;
+  const auto is_inside = [&](const TextureLevel& l) {
+    return apart(u * l.width) > kDoubt && apart(v * l.height) > kDoubt;
+  };
+  const bool mixes = levels && s.mip_filter == MipFilter::linear && level + 1 < texture.levels.size();
+  return is_inside(texture.levels[level]) && (!mixes || is_inside(texture.levels[level + 1]));
 }
 
 Rgba change_of_gain(const Rgba& texel, bool normals) {

@@ -75,13 +75,9 @@ void BlendingJudge::carry_likely(PixelState& p, const DrawnFragment& f, const Bl
     }
   for (int i = 0; i < f.nominal; ++i) {
     if (sees_thresholds_) see_thresholds(p, f, blend.enabled);
-    p.likely = in_floats ? kept_in_floats(f, blend, p.likely)
-                         : likely_texel(blend, color_.image->format, profile_, likely_, f.output.nominal, p.likely);
-    for (size_t k = 0; k < 4; ++k) {
-      p.value[k] += float(f.output.nominal[k].value);
-      p.chance[k] += float(p.likely[k].second_chance);
-      p.drift[k] += float(p.likely[k].second_chance) * float(p.likely[k].second_side);
-    }
+    p.draw_likely(in_floats ? kept_in_floats(f, blend, p.likely)
+                            : likely_texel(blend, color_.image->format, profile_, likely_, f.output.nominal, p.likely),
+                  f.output.nominal);
   }
 }
 
@@ -90,13 +86,10 @@ void BlendingJudge::choose_last(const PixelState& p, int x, int y, const PlaneVi
   m.choices.clear();
   if (!view.quantised() || p.split || p.is_clamped || (layers_ && layers_->any(x, y))) return;
   for (int k = 0; k < view.channels; ++k) {
-    LegalTexel t = p.likely[size_t(k)];
+    LegalTexel t = p.likely_channel(size_t(k));
     if (profile_.likely.sums_in_floats) {
       const Range sum{t.nominal, t.low, t.high};
       t = legal_texel(sum, color_.image->format, k, likely_);
-    } else {
-      t.second_chance = std::min(1.0, double(p.chance[size_t(k)]));
-      t.second_side = p.drift[size_t(k)] < 0 ? -1 : 1;
     }
     const double given = view.stored(x, y, k);
     if (given == t.nominal && !(t.second_chance > 0)) continue;

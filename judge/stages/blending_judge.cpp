@@ -27,6 +27,22 @@ bool same_row(const Image& a, const Image& b, int y) {
 
 }  // namespace
 
+void PixelState::draw_likely(const Texel& t, const std::array<Range, 4>& source) {
+  likely = t;
+  for (size_t k = 0; k < 4; ++k) {
+    value[k] += float(source[k].value);
+    chance[k] += float(t[k].second_chance);
+    drift[k] += float(t[k].second_chance) * float(t[k].second_side);
+  }
+}
+
+LegalTexel PixelState::likely_channel(size_t k) const {
+  LegalTexel t = likely[k];
+  t.second_chance = std::min(1.0, double(chance[k]));
+  t.second_side = drift[k] < 0 ? -1 : 1;
+  return t;
+}
+
 BlendingJudge::BlendingJudge(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                              const Capture& capture, const JudgedRows& judged)
     : scene_(scene),
@@ -280,19 +296,19 @@ void BlendingJudge::choose(int x, int y, const Texel& before, std::span<const Dr
                            const BlendState& blend, const PlaneView& view, Match& m) const {
   m.choices.clear();
   if (!view.quantised()) return;
-  Texel t = before;
-  std::array<double, 4> value{};
+  PixelState p;
+  p.likely = before;
   for (const DrawnFragment& f : drawn)
-    for (int i = 0; i < f.nominal; ++i) {
-      t = likely_texel(blend, color_.image->format, profile_, likely_, f.output.nominal, t);
-      for (size_t k = 0; k < 4; ++k) value[k] = f.output.nominal[k].value;
-    }
+    for (int i = 0; i < f.nominal; ++i)
+      p.draw_likely(likely_texel(blend, color_.image->format, profile_, likely_, f.output.nominal, p.likely),
+                    f.output.nominal);
   const bool codes_add = view.unorm() && !view.layout.srgb && blend.rgb == kAccumulate;
   for (size_t k = 0; k < size_t(view.channels); ++k) {
+    const LegalTexel t = p.likely_channel(k);
     const double given = view.stored(x, y, int(k));
-    if (given == t[k].nominal && !(t[k].second_chance > 0)) continue;
-    const double choice = codes_add || !blend.enabled ? value[k] : value[k] + before[k].nominal;
-    m.choices.push_back(choice_of(view, int(k), uint32_t(at(x, y)), choice, t[k], given, profile_));
+    if (given == t.nominal && !(t.second_chance > 0)) continue;
+    const double value = double(p.value[k]), choice = codes_add || !blend.enabled ? value : value + before[k].nominal;
+    m.choices.push_back(choice_of(view, int(k), uint32_t(at(x, y)), choice, t, given, profile_));
   }
 }
 

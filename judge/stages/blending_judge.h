@@ -32,6 +32,11 @@ struct PixelState {
   bool open = false;        ///< a fragment that may be absent could have left anything
   PixelClass doubt = PixelClass::branch;
   int lights_low = 0, lights_high = 0;  ///< fragments of lights in range and facing so far: light.count
+
+  /// One more draw, which leaves `t` by the likely rule: with that draw's own chance of another rounding.
+  void draw_likely(const Texel& t, const std::array<Range, 4>& source);
+  /// What the likely rule leaves after all draws, with the chances of all of them.
+  LegalTexel likely_channel(size_t k) const;
 };
 
 class BlendingJudge {

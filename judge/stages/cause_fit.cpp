@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 namespace trueshade::oracle {
@@ -182,6 +183,20 @@ class BoundedFit {
   size_t last_freed_ = kNone, refusals_ = 0;
 };
 
+double pull_of(const Deviation& d, const Equations& e, const std::vector<size_t>& free, const Vector& row) {
+  double pull = 0;
+  for (size_t j = 0; j < free.size(); ++j) pull += row[j] * d.by_cause[free[j]] / e.length[free[j]];
+  return pull;
+}
+
+/// What the causes tell of a deviation.
+double told_of(const Deviation& d, const Equations& e, const Vector& x) {
+  double told = 0;
+  for (size_t j = 0; j < x.size(); ++j)
+    if (e.length[j] > 0) told += x[j] * d.by_cause[j] / e.length[j];
+  return told;
+}
+
 /// What a row of the inverse makes of the deviations that are left, and its variance: over clusters, of what is left of
 /// each, or of its noise and what the causes' own bends make, where that is more.
 struct Step {
@@ -193,21 +208,54 @@ Step step_of(const Clusters& clusters, const Equations& e, const std::vector<siz
   Step sum;
   for (size_t c = 0; c < clusters.count(); ++c) {
     double left = 0, noise = 0;
-    const double w = clusters.weight(c);
     for (size_t i = clusters.first[c]; i < clusters.first[c + 1]; ++i) {
       const Deviation& d = *clusters.deviations[i];
-      double pull = 0, told = 0;
-      for (size_t j = 0; j < free.size(); ++j) pull += row[j] * d.by_cause[free[j]] / e.length[free[j]];
-      for (size_t j = 0; j < x.size(); ++j)
-        if (e.length[j] > 0) told += x[j] * d.by_cause[j] / e.length[j];
-      left += w * pull * (d.given - told), noise += w * pull * (d.noise + kBend * std::fabs(told));
+      const double pull = clusters.weight(c) * pull_of(d, e, free, row), told = told_of(d, e, x);
+      left += pull * (d.given - told), noise += pull * (d.noise + kBend * std::fabs(told));
     }
     sum.size += left, sum.variance += std::max(left * left, noise * noise);
   }
   return sum;
 }
 
+/// The variance over places of what is left where the causes in `free` are the likeliest, whatever their bounds.
+struct Spread {
+  double variance = 0;
+  size_t places = 0;
+};
+Spread spread_over_places(const Clusters& clusters, const Equations& e, const std::vector<size_t>& free,
+                          const Vector& row, const Vector& within) {
+  Vector right;
+  for (const size_t j : free) {
+    double r = e.right[j];
+    for (size_t k = 0; k < within.size(); ++k)
+      if (std::find(free.begin(), free.end(), k) == free.end()) r -= e.products(j, k) * within[k];
+    right.push_back(r);
+  }
+  const Vector to = solution(e.products, free, std::move(right));
+  Vector x = within;
+  for (size_t j = 0; j < to.size(); ++j) x[free[j]] = to[j];
+  std::map<uint32_t, double> left;
+  for (size_t c = 0; c < clusters.count(); ++c)
+    for (size_t i = clusters.first[c]; i < clusters.first[c + 1]; ++i) {
+      const Deviation& d = *clusters.deviations[i];
+      left[d.place] += clusters.weight(c) * pull_of(d, e, free, row) * (d.given - told_of(d, e, x));
+    }
+  Spread spread{0, left.size()};
+  for (const auto& [place, sum] : left) spread.variance += sum * sum;
+  return spread;
+}
+
 }  // namespace
+
+// A t distribution's deviations that are as rare as a normal one's (David Wallace, Bounds on Normal Approximations to
+// Student's and the Chi-Square Distributions, Annals of Mathematical Statistics 30, 1959).
+double CauseEstimate::error_at(double deviations) const {
+  if (places < 2) return HUGE_VAL;
+  const auto freedom = double(places - 1);
+  const double student = std::sqrt(freedom * std::expm1(deviations * deviations / freedom));
+  return std::max(error, error_of_places * student / deviations);
+}
 
 double left_within(std::span<const Deviation> deviations, std::span<const CauseBounds> bounds) {
   const Clusters clusters = clusters_of(deviations);
@@ -217,9 +265,7 @@ double left_within(std::span<const Deviation> deviations, std::span<const CauseB
   for (size_t c = 0; c < clusters.count(); ++c)
     for (size_t i = clusters.first[c]; i < clusters.first[c + 1]; ++i) {
       const Deviation& d = *clusters.deviations[i];
-      double left = d.given;
-      for (size_t j = 0; j < bounds.size(); ++j)
-        if (e.length[j] > 0) left -= fit.at()[j] / e.length[j] * d.by_cause[j];
+      const double left = d.given - told_of(d, e, fit.at());
       sum += clusters.weight(c) * left * left;
     }
   return sum;
@@ -244,6 +290,8 @@ std::vector<CauseEstimate> estimate_causes(std::span<const Deviation> deviations
     const Step step = step_of(clusters, e, free, row, within.at());
     out[cause].error = std::sqrt(step.variance) / e.length[cause];
     out[cause].beyond = std::fabs(step.size) / e.length[cause];
+    const Spread spread = spread_over_places(clusters, e, free, row, within.at());
+    out[cause].error_of_places = std::sqrt(spread.variance) / e.length[cause], out[cause].places = spread.places;
   }
   return out;
 }

@@ -12,6 +12,7 @@ struct Deviation {
   double given = 0;              ///< stored less nominal, in steps of the plane
   std::vector<double> by_cause;  ///< of one unit, in the same steps; as many as there are causes
   uint64_t cluster = 0;          ///< deviations of one cluster are one choice: equal values round alike
+  uint32_t place = 0;            ///< what is left at one place may be alike, whatever the values
   double noise = 0;              ///< what rounding makes of the deviation, a standard deviation
 };
 
@@ -25,6 +26,11 @@ struct CauseEstimate {
   double beyond = 0;  ///< how far outside its bounds, as seen from the likeliest values of all causes within bounds
   double error = 0;   ///< standard deviation there, from how much clusters differ and from their noise; infinite where
                       ///< the other causes may do the same
+  double error_of_places = 0;  ///< the same from how much places differ, where what is left is alike
+  size_t places = 0;
+
+  /// The larger error, so that `deviations` of it are as rare as of a normal distribution's.
+  double error_at(double deviations) const;
 };
 
 /// The least sum of squares, over clusters, that causes within their bounds leave of the deviations.

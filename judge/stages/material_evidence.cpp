@@ -73,9 +73,10 @@ void add_tests(const Tested& t, double deviations, bool gains_alone, std::vector
   const std::vector<CauseEstimate> estimates = estimate_causes(t.list, bounds);
   for (size_t i = 0; i < estimates.size(); ++i) {
     const TestedCause& cause = t.causes[i];
-    if (cause.name.empty() || !std::isfinite(estimates[i].error) || (gains_alone && cause.name != "gain")) continue;
+    const double error = estimates[i].error_at(deviations);
+    if (cause.name.empty() || !std::isfinite(error) || (gains_alone && cause.name != "gain")) continue;
     MaterialEvidence e = t.of;
-    e.map = t.maps[i], e.cause = cause.name, e.value = estimates[i].value, e.error = estimates[i].error;
+    e.map = t.maps[i], e.cause = cause.name, e.value = estimates[i].value, e.error = error;
     e.least = bounds[i].high + deviations * e.error;
     e.against = estimates[i].beyond > deviations * e.error && std::fabs(e.value) > e.least;
     found.push_back(std::move(e));
@@ -115,31 +116,43 @@ class MapsByWay {
  public:
   MapsByWay(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
             const StageVerdict& stage)
-      : scene_(scene), pipeline_(pipeline), profile_(profile), capture_(capture), stage_(stage) {
+      : scene_(scene),
+        pipeline_(pipeline),
+        profile_(profile),
+        capture_(capture),
+        stage_(stage),
+        has_srgb_(std::any_of(scene.textures.begin(), scene.textures.end(),
+                              [](const Texture& t) { return t.format == TextureFormat::srgb8_a8; })) {
     constexpr size_t kMost = 1024;  // pixels, of those that tell the way
     const size_t stride = (stage.textured.size() + kMost - 1) / kMost;
     for (size_t i = 0; i < stage.textured.size(); i += stride) some_.push_back(stage.textured[i]);
+    if (some_.empty()) return;
+    best_ = best_of_order(false);
+    if (has_srgb_) other_ = best_of_order(true);
+    if (other_.left < best_.left) std::swap(best_, other_);
+    tested_ = by(best_.way);
   }
 
-  /// By the way that leaves least; and behind it, where maps are sRGB, by the other decoder: which of them it was shows
-  /// less than what a decoder does to a gain.
-  std::vector<std::vector<Tested>> found() {
-    if (some_.empty()) return {};
-    const bool has_srgb = std::any_of(scene_.textures.begin(), scene_.textures.end(),
-                                      [](const Texture& t) { return t.format == TextureFormat::srgb8_a8; });
-    for (const double rho : {0.0, -1.0, -0.5, 0.5, 1.0})
-      for (const bool late : {false, true})
-        if (!late || has_srgb) try_way({rho, late, false});
-    if (has_srgb) try_way({way_.rho, way_.late, true}), try_way({way_.rho, !way_.late, true});
-    for (double step = 0.25; step > 0.05; step /= 2)
-      for (const double to : {way_.rho - step, way_.rho + step})
-        if (std::fabs(to) <= 1) try_way({to, way_.late, way_.mesa});
-    std::vector<std::vector<Tested>> out{by(way_, stage_.textured)};
-    if (has_srgb) out.push_back(by({way_.rho, way_.late, !way_.mesa}, stage_.textured));
-    return out;
+  /// By the way that leaves least.
+  const std::vector<Tested>& tested() const { return tested_; }
+
+  /// By the other decoder of sRGB: which of them it was shows less than what a decoder does to a gain.
+  std::vector<std::vector<Tested>> by_other_decoder() const {
+    if (!has_srgb_) return {};
+    return {by(with_other_decoder(best_.way))};
   }
+
+  /// By the other order of decoding and filtering, by both decoders.
+  std::vector<std::vector<Tested>> by_other_order() const {
+    if (!has_srgb_) return {};
+    return {by(other_.way), by(with_other_decoder(other_.way))};
+  }
+
+  /// Whether that order may be the picture's.
+  bool is_order_open() const { return other_.left < 1.5 * best_.left; }
 
  private:
+  std::vector<Tested> by(const TexelWay& way) const { return by(way, stage_.textured); }
   std::vector<Tested> by(const TexelWay& way, std::span<const TexturedPixel> pixels) const {
     std::vector<Tested> tested;
     for (TextureDeviations& d : texture_deviations(scene_, pipeline_, profile_, capture_, pixels, way))
@@ -147,12 +160,26 @@ class MapsByWay {
     return tested;
   }
 
-  /// Keeps the way where it leaves less than those before.
-  void try_way(const TexelWay& way) {
-    double left = 0;
-    for (const Tested& t : by(way, some_)) left += left_within(t.list, bounds_of(t, Tolerances::apart));
-    if (is_tried_ && left >= left_) return;
-    way_ = way, left_ = left, is_tried_ = true;
+  static TexelWay with_other_decoder(const TexelWay& way) { return {way.rho, way.late, !way.mesa}; }
+
+  struct TriedWay {
+    TexelWay way;
+    double left = HUGE_VAL;  ///< of some pixels
+  };
+
+  TriedWay best_of_order(bool late) const {
+    TriedWay best;
+    const auto try_way = [&](const TexelWay& way) {
+      double left = 0;
+      for (const Tested& t : by(way, some_)) left += left_within(t.list, bounds_of(t, Tolerances::apart));
+      if (left < best.left) best = {way, left};
+    };
+    for (const double rho : {0.0, -1.0, -0.5, 0.5, 1.0}) try_way({rho, late, false});
+    if (has_srgb_) try_way({best.way.rho, late, true});
+    for (double step = 0.25; step > 0.05; step /= 2)
+      for (const double to : {best.way.rho - step, best.way.rho + step})
+        if (std::fabs(to) <= 1) try_way({to, late, best.way.mesa});
+    return best;
   }
 
   const Scene& scene_;
@@ -161,9 +188,9 @@ class MapsByWay {
   const Capture& capture_;
   const StageVerdict& stage_;
   std::vector<TexturedPixel> some_;
-  TexelWay way_;
-  double left_ = 0;
-  bool is_tried_ = false;
+  const bool has_srgb_;
+  TriedWay best_, other_;  ///< of one order, and of the other
+  std::vector<Tested> tested_;
 };
 
 /// Of the stages that judge a whole picture: draw by draw llvmpipe's blends lean by more than these causes say (two of
@@ -185,12 +212,34 @@ std::vector<Tested> tested_glass(const Scene& scene, const StageVerdict& stage) 
   return out;
 }
 
-/// Whether the same cause of the same material, plane and map is against the picture in another list.
-bool is_against(const MaterialEvidence& e, const std::vector<MaterialEvidence>& others) {
-  return std::any_of(others.begin(), others.end(), [&e](const MaterialEvidence& o) {
-    return o.against && o.stage == e.stage && o.material == e.material && o.plane == e.plane && o.map == e.map &&
-           o.cause == e.cause;
-  });
+std::vector<MaterialEvidence> tests_of(const std::vector<Tested>& tested, double deviations) {
+  std::vector<MaterialEvidence> found;
+  for (const Tested& t : tested) add_all_tests(t, deviations, found);
+  return found;
+}
+
+bool has_order(const std::vector<MaterialEvidence>& found) {
+  return std::any_of(found.begin(), found.end(), [](const auto& e) { return e.against && e.cause == "order"; });
+}
+
+/// What stands against maps by one way must do so by the others that may be the picture's. Orders are mixed where some
+/// map is against either of them: of a picture of one order none is against that one.
+void doubt(const MapsByWay& maps, double deviations, std::vector<MaterialEvidence>& found) {
+  if (std::none_of(found.begin(), found.end(), [](const auto& e) { return e.against; })) return;
+  const auto keep = [&](const std::vector<Tested>& tested, bool same_order) {
+    const std::vector<MaterialEvidence> others = tests_of(tested, deviations);
+    for (MaterialEvidence& e : found) {
+      const bool is_order = e.cause == "order";
+      if (!e.against || (!same_order && !is_order && !maps.is_order_open())) continue;
+      e.against =
+          (is_order && !same_order) ? has_order(others) : std::any_of(others.begin(), others.end(), [&](const auto& o) {
+            return o.against && o.cause == e.cause && o.material == e.material && o.plane == e.plane && o.map == e.map;
+          });
+    }
+  };
+  for (const std::vector<Tested>& tested : maps.by_other_decoder()) keep(tested, true);
+  if (!maps.is_order_open() && !has_order(found)) return;
+  for (const std::vector<Tested>& tested : maps.by_other_order()) keep(tested, false);
 }
 
 }  // namespace
@@ -221,22 +270,24 @@ std::vector<MaterialEvidence> material_evidence(const Scene& scene, const Pipeli
                                                 const Capture& capture, std::span<const StageVerdict> stages,
                                                 double significance) {
   const Profile by = resolved(profile, pipeline);
-  std::vector<Tested> tested, otherwise;
+  std::vector<MapsByWay> maps;
+  std::vector<Tested> glass;
+  size_t count = 0;
   for (const StageVerdict& stage : stages) {
-    const std::vector<std::vector<Tested>> maps = MapsByWay(scene, pipeline, by, capture, stage).found();
-    if (!maps.empty()) tested.insert(tested.end(), maps[0].begin(), maps[0].end());
-    if (maps.size() > 1) otherwise.insert(otherwise.end(), maps[1].begin(), maps[1].end());
-    for (Tested& t : tested_glass(scene, stage)) tested.push_back(std::move(t));
+    count += maps.emplace_back(scene, pipeline, by, capture, stage).tested().size();
+    for (Tested& t : tested_glass(scene, stage)) glass.push_back(std::move(t));
   }
   constexpr double kTestsEach = 8;
-  const double tests = kTestsEach * double(std::max<size_t>(tested.size(), 1));
+  const double tests = kTestsEach * double(std::max<size_t>(count + glass.size(), 1));
   const double deviations = std::sqrt(2 * std::log(2 * tests / significance));  // a normal distribution's, at most
-  std::vector<MaterialEvidence> found, doubted;
-  for (const Tested& t : tested) add_all_tests(t, deviations, found);
-  for (const Tested& t : otherwise) add_all_tests(t, deviations, doubted);
-  for (MaterialEvidence& e : found)
-    if (!e.map.empty() && !otherwise.empty()) e.against = e.against && is_against(e, doubted);
-  return found;
+  std::vector<MaterialEvidence> all;
+  for (const MapsByWay& m : maps) {
+    std::vector<MaterialEvidence> found = tests_of(m.tested(), deviations);
+    doubt(m, deviations, found);
+    std::move(found.begin(), found.end(), std::back_inserter(all));
+  }
+  for (const Tested& t : glass) add_all_tests(t, deviations, all);
+  return all;
 }
 
 }  // namespace trueshade::oracle

@@ -34,7 +34,8 @@ struct MaterialEvidence {
 /// Of each material's maps gains, scales of normal maps, levels, and whether all are decoded in one order; of glass its
 /// alpha. What implementations choose is estimated beside these, as one number for a material and plane: the formula of
 /// rho between the limits of 8.14.1, 2^-6 of a texel, how 8-bit steps, factors and blends are rounded, when and how
-/// sRGB is decoded. Passed over is what too few pixels tell, or what such a choice would make, too.
+/// sRGB is decoded. Passed over is what too few pixels tell, or what such a choice would make, too: what is against maps
+/// is so by either order and decoder of sRGB.
 ///   stages: as judged
 ///   significance: how many right images may fail one of the tests
 std::vector<MaterialEvidence> material_evidence(const Scene& scene, const Pipeline& pipeline, const Profile& profile,

@@ -79,8 +79,10 @@ std::optional<Deviation> PlaneView::deviation(int x, int y, int channel, double 
   if (!is_open || !std::isfinite(given) || !std::isfinite(expected)) return std::nullopt;
   const double parts = unorm() ? 16 : 4096;  // of a step, or in floats of 1: values that near round alike
   const auto value = uint64_t(int64_t(std::floor(std::clamp(expected, -1e9, 1e9) * parts)) + (int64_t(1) << 50));
+  constexpr int kPlace = 8;  // pixels
+  const auto place = uint32_t(y / kPlace) << 16 | uint32_t(x / kPlace);
   return Deviation{
-      given - expected, {}, value << 2 | uint64_t(channel & 3), kRounding * unit_of(*this, channel, expected)};
+      given - expected, {}, value << 2 | uint64_t(channel & 3), place, kRounding * unit_of(*this, channel, expected)};
 }
 
 PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string_view name) {

@@ -33,10 +33,11 @@ struct GroupKey {
 };
 using Deviations = std::map<GroupKey, std::vector<Deviation>>;
 
-/// The material's lookups at a sample, and what they are of each cause: all maps' causes in the order of the maps.
+/// The material's lookups at a sample, and what they are of each cause: all maps' causes in the order of the maps,
+/// empty where the cause changes nothing.
 struct ChangedTexels {
   SurfaceTexels nominal;
-  std::vector<SurfaceTexels> changed;
+  std::vector<std::optional<SurfaceTexels>> changed;
 };
 
 /// Makes deviations of pixels.
@@ -128,9 +129,12 @@ std::optional<ChangedTexels> TextureSampler::texels_of(const Material& material,
   }
   for (size_t map = 0; map < kMaterialMaps; ++map)
     for (size_t cause = 0; cause < kTexelCauses && changes[map]; ++cause) {
+      const TexelChanges::Rgba& change = changes[map]->change[cause];
+      std::optional<SurfaceTexels>& changed = out.changed.emplace_back();
+      if (change == TexelChanges::Rgba{}) continue;
       TexelChanges::Rgba texel = changes[map]->texel;
-      for (size_t c = 0; c < 4; ++c) texel[c] += changes[map]->change[cause][c];
-      set(out.changed.emplace_back(out.nominal), map, texel);
+      for (size_t c = 0; c < 4; ++c) texel[c] += change[c];
+      set(changed.emplace(out.nominal), map, texel);
     }
   return out;
 }
@@ -152,7 +156,7 @@ void TextureSampler::add(const TexturedPixel& pixel, TriangleForms& forms, Devia
   };
   const Values nominal = shaded(texels->nominal);
   std::vector<Values> changed;
-  for (const SurfaceTexels& t : texels->changed) changed.push_back(shaded(t));
+  for (const std::optional<SurfaceTexels>& t : texels->changed) changed.push_back(t ? shaded(*t) : nominal);
   for (size_t g = 0; g < kGroupCount; ++g)
     for (int k = 0; k < kGroups[g].count && views_[g]; ++k)
       add_channel(pixel, g, k, nominal, changed, out[{material, g}]);

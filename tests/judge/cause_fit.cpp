@@ -72,3 +72,26 @@ TEST_CASE("Equal values are one choice: a thousand of them tell no more than one
   CHECK(all.value == Approx(few.value));
   CHECK(all.error == Approx(few.error));
 }
+
+TEST_CASE("What is left alike at a place counts once: estimates are as far off as errors of places say") {
+  double by_values = 0, by_places = 0;
+  constexpr int kSamples = 400, kPlaces = 40, kEach = 16;
+  for (int i = 0; i < kSamples; ++i) {
+    std::vector<Deviation> all;
+    Pcg32 random(uint64_t(i), 1);
+    for (int place = 0; place < kPlaces; ++place) {
+      const double alike = random.between(-1, 1);
+      std::vector<Deviation> here = made_of({0}, kEach, 0.1, uint64_t(i * kPlaces + place));
+      for (Deviation& d : here) {
+        d.by_cause = {1.0}, d.given += alike, d.place = uint32_t(place), d.cluster += uint64_t(place * kEach);
+        all.push_back(d);
+      }
+    }
+    const CauseEstimate e = estimate_causes(all, {{{0, 0}}})[0];
+    by_values += std::pow(e.value / e.error, 2), by_places += std::pow(e.value / e.error_of_places, 2);
+    CHECK(e.places == size_t(kPlaces));
+    CHECK(e.error_at(1) >= e.error_of_places);
+  }
+  CHECK(by_values / kSamples > 8);
+  CHECK(by_places / kSamples == Approx(1).margin(0.25));
+}

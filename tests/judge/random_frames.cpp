@@ -107,4 +107,9 @@ int long_count(int usual) {
   return asked != nullptr ? std::max(1, std::atoi(asked)) : usual;
 }
 
+uint64_t long_first(uint64_t usual) {
+  const char* const asked = std::getenv("LEGAL_FIRST");
+  return asked != nullptr ? std::strtoull(asked, nullptr, 10) : usual;
+}
+
 }  // namespace trueshade::testing

@@ -33,5 +33,7 @@ void check_random_frames(const RandomFrames& asked, const FrameDrawer& drawer);
 
 /// How many frames the long tests judge: LEGAL_FRAMES of the environment, else `usual`.
 int long_count(int usual);
+/// Seed of the long tests' first frame: LEGAL_FIRST of the environment, else `usual`.
+uint64_t long_first(uint64_t usual);
 
 }  // namespace trueshade::testing
