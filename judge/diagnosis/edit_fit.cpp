@@ -195,7 +195,7 @@ std::vector<FaultParameter> fitted_parameters(const PlaneFault& fault, std::span
     const FaultParameter& from = suspects[starts[i].second];
     const auto at = [&](const Triple3& vector) { return FaultParameter(from.number, vector, from.part); };
     const Residuals residuals = [&](const Triple3& vector) { return fitter.residuals(fault, at(vector)); };
-    const Triple3 vector = fitted({residuals, fault.numbers.vector, size, kScales}, from.vector);
+    const Triple3 vector = fitted({residuals, fault.numbers.vector, size, kScales, fault.start}, from.vector);
     const auto is = [](double v) { return std::isfinite(v) && std::fabs(v) < 1e9; };
     if (!std::all_of(vector.begin(), vector.end(), is)) continue;
     const double error = robust_error(residuals(vector), kScales[2]);

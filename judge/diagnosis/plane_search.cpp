@@ -16,7 +16,8 @@ using Search = PlaneFault::Search;
 constexpr double kNamed = 1.0 / 3, kParameterCost = 0.002, kRival = 0.06, kPairGain = 0.6, kLeastChanged = 8;
 constexpr double kExplained = 0.03;  ///< of what a G-buffer costs where nothing is wrong
 constexpr size_t kFirstOfPairs = 3, kFinalists = 8;
-constexpr uint64_t kMostTriangles = 1000000;  ///< of a scene that is drawn again for every fault
+constexpr double kFarOff = 1.5, kNearer = 0.1;  ///< steps, and of what it was off
+constexpr uint64_t kMostTriangles = 1000000;    ///< of a scene that is drawn again for every fault
 
 struct Candidate {
   PlaneSupposition supposed;
@@ -24,6 +25,14 @@ struct Candidate {
   std::array<double, kPlanes> costs{};  ///< by plane
   double cost = 0;                      ///< of what it costs where nothing is wrong
 };
+
+/// Numbers that a fault's name gives, without those that change nothing.
+int given_numbers(const NamedPlaneFault& f) {
+  const ParameterForm form = f.fault->form();
+  int count = form.count();
+  for (int k = 0; k < form.vector; ++k) count -= f.parameter.vector[size_t(k)] == f.fault->start ? 1 : 0;
+  return count;
+}
 
 class PlaneSearch {
  public:
@@ -44,12 +53,13 @@ class PlaneSearch {
   std::vector<Candidate> look() const;
   Candidate judged(PlaneSupposition supposed, bool all) const;
   Finding finding(std::span<const NamedPlaneFault> faults, size_t which) const;
+  bool told_apart(const Candidate& a, const Candidate& b) const;
 
  private:
   using Steps = std::vector<std::array<double, kPlanes>>;
   /// How many pixels are not as they should be, and shares of these and of the others.
   struct Share {
-    double changed = 0, explained = 0, contradicted = 0;
+    double changed = 0, explained = 0, contradicted = 0, left = 0;
   };
   static bool agrees(const std::array<double, kPlanes>& off, Plane plane = Plane::all) {
     if (plane != Plane::all) return off[size_t(plane)] < kSameSteps;
@@ -102,7 +112,7 @@ Candidate PlaneSearch::judged(PlaneSupposition supposed, bool all) const {
     if (agrees(before[i]) && !agrees(now[i])) c.found.contradicted += pixels[i].weight;
   }
   c.cost = c.found.cost / (all ? cost_ : cost_few_);
-  for (const NamedPlaneFault& f : supposed.faults) c.cost += f.fault->doubt + kParameterCost * f.fault->form().count();
+  for (const NamedPlaneFault& f : supposed.faults) c.cost += f.fault->doubt + kParameterCost * given_numbers(f);
   c.supposed = std::move(supposed);
   return c;
 }
@@ -180,7 +190,10 @@ std::vector<FaultParameter> PlaneSearch::parameters(const PlaneSupposition& base
 
 std::vector<Candidate> PlaneSearch::beside(const PlaneSupposition& base, bool redraw) const {
   std::vector<Candidate> candidates;
-  const auto leaves_nothing = [&](const Candidate& c) { return c.found.cost < 1e-3 * cost_few_; };
+  // Of an object more names than one may explain as much, and it is said that they do.
+  const auto leaves_nothing = [&](const Candidate& c) {
+    return c.found.cost < 1e-3 * cost_few_ && c.supposed.faults.back().fault->fit != Fit::object;
+  };
   const auto tries = [&](std::span<const PlaneFault> table) {
     for (const PlaneFault& fault : table) {
       const auto same = [&](const NamedPlaneFault& f) { return f.fault == &fault; };
@@ -256,9 +269,33 @@ PlaneSupposition PlaneSearch::supposed(std::span<const NamedPlaneFault> faults) 
   return s;
 }
 
+/// Whether more is left of a difference than rounding and what is legal of a plane make.
+bool is_far_off(const std::array<double, kPlanes>& now, const std::array<double, kPlanes>& before, Plane plane) {
+  for (size_t k = 0; k < kPlanes; ++k)
+    if ((plane == Plane::all || plane == Plane(k)) && now[k] > kFarOff && now[k] > kNearer * before[k]) return true;
+  return false;
+}
+
+/// Whether any pixel is as one has it and not as the other has it. Of names with as many numbers.
+bool PlaneSearch::told_apart(const Candidate& a, const Candidate& b) const {
+  const auto numbers = [](const Candidate& c) {
+    int sum = 0;
+    for (const NamedPlaneFault& f : c.supposed.faults) sum += given_numbers(f);
+    return sum;
+  };
+  if (numbers(a) != numbers(b)) return true;
+  const Steps one = off(a.supposed, planes_.sample(), &off_), other = off(b.supposed, planes_.sample(), &off_);
+  for (size_t i = 0; i < one.size(); ++i)
+    if (agrees(one[i]) != agrees(other[i])) return true;
+  return false;
+}
+
 /// Of the pixels of one plane, or of all.
 PlaneSearch::Share PlaneSearch::share(const PlaneSupposition& supposed, Plane plane) const {
   const Steps now = off(supposed, planes_.sample(), &off_);
+  const bool edges = std::any_of(supposed.faults.begin(), supposed.faults.end(), [](const NamedPlaneFault& f) {
+    return f.fault->redraws() || f.fault->move != nullptr || f.fault->averages;
+  });
   Share out;
   double same = 0;
   for (size_t i = 0; i < off_.size(); ++i) {
@@ -267,8 +304,9 @@ PlaneSearch::Share PlaneSearch::share(const PlaneSupposition& supposed, Plane pl
     (was ? same : out.changed) += weight;
     if (!was && is) out.explained += weight;
     if (was && !is) out.contradicted += weight;
+    if (!is && !edges && is_far_off(now[i], off_[i], plane)) out.left += weight;
   }
-  if (out.changed > 0) out.explained /= out.changed;
+  if (out.changed > 0) out.explained /= out.changed, out.left /= out.changed;
   if (same > 0) out.contradicted /= same;
   return out;
 }
@@ -311,7 +349,7 @@ Finding PlaneSearch::finding(std::span<const NamedPlaneFault> faults, size_t whi
   f.name = name_of(*fault.fault, fault.parameter), f.text = text_of(*fault.fault, fault.parameter);
   f.plane = kPlaneNames[size_t(own)];
   f.changed = uint64_t(std::llround(found.changed));
-  f.explained = found.explained, f.contradicted = found.contradicted;
+  f.explained = found.explained, f.contradicted = found.contradicted, f.left = found.left;
   f.together = which > 0, f.fitted = fault.fault->is_estimate() || fault.fault->averages;
   f.alone = f.together ? share(supposed({&fault, 1}), own).explained : f.explained;
   f.proof = proof(up_to_it, own, which > 0 ? &before : nullptr);
@@ -350,6 +388,7 @@ PlaneFindings plane_findings(const Scene& scene, const Pipeline& pipeline, const
     const auto unproved = [](const Finding& f) { return f.proof.plane.empty(); };
     if (only.empty() && std::any_of(named.begin(), named.end(), unproved)) continue;
     if (out.findings.empty()) out.drawn = c.supposed.scene;
+    if (!out.findings.empty() && !search.told_apart(found.front(), c)) named.front().tied = true;
     for (Finding& f : named) out.findings.push_back(std::move(f));
   }
   return out;
