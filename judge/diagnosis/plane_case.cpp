@@ -231,7 +231,12 @@ PlaneValues PlaneCase::given(int x, int y) const {
 }
 
 PlaneEvidence PlaneCase::evidence() const {
-  PlaneEvidence e{scene_, pipeline_, {}, {}};
+  PlaneEvidence e{scene_,
+                  pipeline_,
+                  {},
+                  {},
+                  [this](int x, int y) { return given(x, y); },
+                  [this](int x, int y) { return views_[size_t(Plane::object)].stored(x, y, 0); }};
   for (size_t k = 0; k < kPlanes; ++k) e.has[k] = bool(views_[k]);
   for (const SampledPixel& p : sample_) {
     const ExpectedPixel expected = right_->at(p.x, p.y);

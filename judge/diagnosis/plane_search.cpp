@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "judge/diagnosis/object_border.h"
 #include "judge/diagnosis/plane_parameters.h"
 
 namespace trueshade::oracle {
@@ -12,6 +13,7 @@ namespace {
 constexpr double kNamed = 1.0 / 3, kParameterCost = 0.002, kRival = 0.06, kPairGain = 0.6, kLeastChanged = 8;
 constexpr double kExplained = 0.03;  ///< of what a G-buffer costs where nothing is wrong
 constexpr size_t kFirstOfPairs = 3, kFinalists = 8;
+constexpr double kEstimateCost = 0.01;          ///< numbers that are fitted explain more by chance
 constexpr double kFarOff = 1.5, kNearer = 0.1;  ///< steps, and of what it was off
 constexpr uint64_t kMostTriangles = 1000000;    ///< of a scene that is drawn again for every fault
 
@@ -83,7 +85,8 @@ Candidate PlaneSearch::judged(PlaneSupposition supposed, bool all) const {
     if (agrees(before[i]) && !agrees(now[i])) c.found.contradicted += pixels[i].weight;
   }
   c.cost = c.found.cost / (all ? cost_ : cost_few_);
-  for (const NamedPlaneFault& f : supposed.faults) c.cost += f.fault->doubt + kParameterCost * f.numbers();
+  for (const NamedPlaneFault& f : supposed.faults)
+    c.cost += f.fault->doubt + kParameterCost * f.numbers() + (f.fault->is_estimate() ? kEstimateCost : 0);
   c.supposed = std::move(supposed);
   return c;
 }
@@ -206,7 +209,13 @@ double PlaneSearch::left_of(const PlaneSupposition& supposed) const {
       }
     sum += weight * most;
   }
-  return std::nearbyint(1000 * sum / changed_);
+  // Of an object, all of its outline: a sample may miss the few pixels that tell how it is changed.
+  int missed = 0;
+  for (const NamedPlaneFault& f : supposed.faults)
+    for (const SampledPixel& p : f.fault->fit == Fit::object ? outline_of(evidence_, uint32_t(f.parameter.number))
+                                                             : std::vector<SampledPixel>{})
+      missed += agrees(planes_.steps_off(supposed, p.x, p.y)) ? 0 : 1;
+  return missed + std::nearbyint(1000 * sum / changed_);
 }
 
 /// Those that cost about as little as the first by what they leave.

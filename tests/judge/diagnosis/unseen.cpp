@@ -42,6 +42,11 @@ TEST_CASE("Of two names that no pixel tells apart both are given, by the numbers
   CHECK(tried("height-wrong", "city").first == "object-moved=0:0,0.3,0 or object-scaled=0:1,1.3,1");
 }
 
+TEST_CASE("An object that slides along a face is named by where its outline went") {
+  CHECK(tried("object-left-behind", "cornell").first == "object-moved=4:0,0.2,0.2");
+  CHECK(tried("height-wrong", "cornell").first.find("object-scaled=6:") == 0);
+}
+
 TEST_CASE("A name that says no number of the pixels that it holds explains none of them") {
   const Trial full = tried("lists-of-four", "lecture");
   CHECK(full.first == "tile-stale-16");
