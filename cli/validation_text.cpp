@@ -119,10 +119,17 @@ std::string tightest_line(const oracle::Inference& inferred) {
          " pixels against it" + sample;
 }
 
+/// What share of the pixels a fault predicts, or says to be anything.
+std::string share_text(const oracle::Finding& f) {
+  const std::string pixels = " % of some " + std::to_string(f.changed) + " pixels that are not as expected";
+  if (f.explained > 0 || !(f.located > 0))
+    return (f.together ? "together they explain " : "explains ") + real(100 * f.explained, "%.1f") + pixels;
+  return "holds " + real(100 * f.located, "%.1f") + pixels + ", without their numbers";
+}
+
 std::string finding_line(const oracle::Finding& f) {
-  return f.name + " (" + f.plane + "): " + f.text + "; " + (f.together ? "together they explain " : "explains ") +
-         real(100 * f.explained, "%.1f") + " % of some " + std::to_string(f.changed) +
-         " pixels that are not as expected" +
+  return f.name + " (" + f.plane + "): " + f.text + "; " + share_text(f) +
+         (f.left > 0.0005 ? ", leaves " + real(100 * f.left, "%.1f") + " % far off" : "") +
          (f.contradicted > 0.0005 ? ", and contradicts " + real(100 * f.contradicted, "%.1f") + " % of the others"
                                   : "");
 }
@@ -287,6 +294,7 @@ std::string validation_text(const Validation& v) {
   if (v.is_diagnosed && !explained) lines += verdict_row("looks like", "no fault that is known");
   for (const oracle::Finding& f : v.findings)
     lines += verdict_row(f.together  ? "and"
+                         : f.tied    ? "or as well"
                          : f.partial ? "may be part"
                                      : "looks like",
                          finding_line(f)) +

@@ -180,6 +180,7 @@ std::string diagnosis_part(const Validation& v) {
   for (const oracle::Finding& f : v.findings)
     html += "<p>" +
             std::string(f.together  ? "And "
+                        : f.tied    ? "Or as well "
                         : f.partial ? "May be part of it: "
                                     : "") +
             escaped(finding_line(f)) + ".<br><span class=quiet>" + escaped(proof_line(f)) +

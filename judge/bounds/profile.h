@@ -41,6 +41,8 @@ struct Sampling {
   bool any_scale = true;     ///< rho anything 8.14.1 allows; false: equation 8.11
   double lod_error = 0.05;   ///< of log2 rho: llvmpipe's log2 is 0.043 off
   double relative = 8 * 0x1p-23;  ///< of a filtered value, in floats
+  int anisotropy = 1;  ///< most lookups along the longer axis of a pixel (EXT_texture_filter_anisotropic). No profile
+                       ///< has more: OpenGL has them where they are asked for, and a diagnosis supposes that they were
   bool operator==(const Sampling&) const = default;
 };
 

@@ -35,7 +35,7 @@ bool is_suspicious(const StageVerdict& stage) {
 std::vector<Finding> merged(std::vector<Finding> planes, std::vector<Finding> picture, size_t most) {
   const auto first = [](const std::vector<Finding>& list) {
     size_t count = std::min<size_t>(1, list.size());
-    while (count < list.size() && list[count].together) ++count;
+    while (count < list.size() && (list[count].together || list[count].tied)) ++count;
     return count;
   };
   const size_t of_planes = first(planes), of_picture = first(picture);
@@ -78,17 +78,20 @@ void add_glass(std::vector<Finding> glass, std::vector<Finding>& findings) {
   findings.insert(first ? findings.begin() : findings.end(), glass.begin(), glass.end());
 }
 
-/// What was looked for: a fault that leaves most of what is wrong unexplained is no explanation: it comes behind those
-/// that are. Of two faults at once their share together counts.
+/// What was looked for: a fault that leaves most of what is wrong unexplained, or anything far off, is no explanation:
+/// it comes behind those that are. Of two faults at once their share together counts. What is predicted of a picture is
+/// exact, of planes within what interpolation leaves.
 std::vector<Finding> partial_last(std::vector<Finding> findings) {
-  constexpr double kExplanation = 0.5, kOfFitted = 0.75;
+  constexpr double kExplanation = 0.5, kOfFitted = 0.75, kLeftOfPicture = 0.005, kLeftOfPlanes = 0.05;
   std::vector<Finding> partial, whole;
   for (size_t from = 0; from < findings.size();) {
     size_t end = from + 1;
     while (end < findings.size() && findings[end].together) ++end;
     const bool fitted = std::any_of(findings.begin() + ptrdiff_t(from), findings.begin() + ptrdiff_t(end),
                                     [](const Finding& f) { return f.fitted; });
-    const bool is_partial = findings[end - 1].explained < (fitted ? kOfFitted : kExplanation);
+    const Finding& last = findings[end - 1];
+    const bool is_partial = last.explained + last.located < (fitted ? kOfFitted : kExplanation) ||
+                            last.left > (last.plane == "picture" ? kLeftOfPicture : kLeftOfPlanes);
     for (; from < end; ++from) {
       findings[from].partial = is_partial;
       (is_partial ? partial : whole).push_back(std::move(findings[from]));
@@ -156,9 +159,10 @@ std::string findings_json(std::span<const Finding> findings) {
             ",\"explained\":" + json_in_nine_digits(f.explained) +
             ",\"contradicted\":" + json_in_nine_digits(f.contradicted) +
             ",\"together\":" + (f.together ? "true" : "false") + ",\"alone\":" + json_in_nine_digits(f.alone) +
-            ",\"proof\":{\"x\":" + std::to_string(f.proof.x) + ",\"y\":" + std::to_string(f.proof.y) +
-            ",\"plane\":" + json_string(f.proof.plane) + ",\"given\":" + json_in_nine_digits(f.proof.given) +
-            ",\"right\":" + json_in_nine_digits(f.proof.right) +
+            ",\"located\":" + json_in_nine_digits(f.located) + ",\"left\":" + json_in_nine_digits(f.left) +
+            ",\"tied\":" + (f.tied ? "true" : "false") + ",\"proof\":{\"x\":" + std::to_string(f.proof.x) +
+            ",\"y\":" + std::to_string(f.proof.y) + ",\"plane\":" + json_string(f.proof.plane) +
+            ",\"given\":" + json_in_nine_digits(f.proof.given) + ",\"right\":" + json_in_nine_digits(f.proof.right) +
             ",\"predicted\":" + json_in_nine_digits(f.proof.predicted) +
             ",\"by_both\":" + (f.proof.by_both ? "true" : "false") +
             ",\"anything\":" + (f.proof.anything ? "true" : "false") +

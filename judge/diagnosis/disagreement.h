@@ -32,6 +32,7 @@ struct SampledPixel {
 struct Disagreement {
   double cost = 0;          ///< over all sampled pixels, by weight
   double explained = 0;     ///< weight of the pixels that agree, of those that do not without the fault
+  double located = 0;       ///< weight of those of which no number is predicted, of those that do not agree without it
   double contradicted = 0;  ///< weight of those that do not agree, of those that do without it
 };
 

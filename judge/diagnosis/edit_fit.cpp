@@ -5,7 +5,7 @@
 #include <map>
 
 #include "judge/diagnosis/least_squares.h"
-#include "judge/diagnosis/plane_evidence.h"
+#include "judge/diagnosis/object_border.h"
 #include "judge/diagnosis/sketch.h"
 #include "oracle/camera_view.h"
 #include "oracle/exact_coverage.h"
@@ -17,6 +17,7 @@ namespace {
 constexpr size_t kMostOfObject = 240, kMostOfCamera = 300;  ///< pixels
 constexpr double kScales[] = {0.1,  0.01, 1e-3,
                               1e-4, 1e-5, 1e-6};  ///< of the scene's extent, of a unit normal, of a window
+constexpr double kOnFaces = 1e-4;                 ///< of kScales: beside pixels of an outline, each of which counts 1
 constexpr double kNamed = 0.3;                    ///< the share of wrong pixels that an object has which is to blame
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
@@ -67,7 +68,8 @@ void add_differences(const PlaneEvidence& evidence, double extent, const PlaneVa
 /// One object's pixels, and what lies behind or before it there.
 class ObjectFit {
  public:
-  ObjectFit(const PlaneEvidence& evidence, uint32_t object) : evidence_(evidence), object_(object) {
+  ObjectFit(const PlaneEvidence& evidence, uint32_t object)
+      : evidence_(evidence), object_(object), border_(evidence, object) {
     const double number = object + 1.0;
     for (const EvidentPixel& p : evidence.pixels)
       if (p.given.object == number || (p.expected.covered && p.expected.object == number) ||
@@ -104,12 +106,21 @@ class ObjectFit {
     }
     return out;
   }
+  /// Along a face that is seen differences stay as they are, and the outline alone tells where the object ends.
+  double cost(const PlaneFault& fault, const FaultParameter& parameter) {
+    Scene scene = bare_;
+    Pipeline pipeline = evidence_.pipeline;
+    fault.edit(scene, pipeline, parameter);
+    return robust_error(residuals(fault, parameter), kOnFaces) + border_.mismatches(scene, pipeline);
+  }
+  bool has_border() const { return !border_.empty(); }
   size_t pixels() const { return pixels_.size(); }
   double extent() const { return extent_; }
 
  private:
   const PlaneEvidence& evidence_;
   const uint32_t object_;
+  ObjectBorder border_;
   std::vector<const EvidentPixel*> pixels_;
   std::vector<SampledPixel> places_;
   double extent_ = 1;
@@ -195,7 +206,7 @@ std::vector<FaultParameter> fitted_parameters(const PlaneFault& fault, std::span
     const FaultParameter& from = suspects[starts[i].second];
     const auto at = [&](const Triple3& vector) { return FaultParameter(from.number, vector, from.part); };
     const Residuals residuals = [&](const Triple3& vector) { return fitter.residuals(fault, at(vector)); };
-    const Triple3 vector = fitted({residuals, fault.numbers.vector, size, kScales}, from.vector);
+    const Triple3 vector = fitted({residuals, fault.numbers.vector, size, kScales, fault.start}, from.vector);
     const auto is = [](double v) { return std::isfinite(v) && std::fabs(v) < 1e9; };
     if (!std::all_of(vector.begin(), vector.end(), is)) continue;
     const double error = robust_error(residuals(vector), kScales[2]);
@@ -203,6 +214,17 @@ std::vector<FaultParameter> fitted_parameters(const PlaneFault& fault, std::span
   }
   if (!best) return {};
   return {*best};
+}
+
+/// By the outline, which says nothing of mirrored objects: most bodies have the same.
+void settle(const PlaneFault& fault, ObjectFit& fitter, FaultParameter& parameter) {
+  const auto is_mirror = [&](double v) { return fault.start == 1 && v < 0; };
+  if (std::any_of(parameter.vector.begin(), parameter.vector.end(), is_mirror)) return;
+  const auto cost = [&](const Triple3& vector) {
+    return fitter.cost(fault, FaultParameter(parameter.number, vector, parameter.part));
+  };
+  const double size = fault.change_of < 0 ? -fault.change_of * fitter.extent() : fault.change_of;
+  parameter.vector = settled(cost, fault.numbers.vector, size, parameter.vector);
 }
 
 }  // namespace
@@ -245,7 +267,9 @@ std::vector<FaultParameter> suspected_parameters(const PlaneEvidence& evidence, 
            suspects[end].part == suspects[from].part)
       ++end;
     ObjectFit fitter(evidence, uint32_t(suspects[from].number));
-    const std::vector<FaultParameter> found = fitted_parameters(fault, {&suspects[from], end - from}, fitter);
+    std::vector<FaultParameter> found = fitted_parameters(fault, {&suspects[from], end - from}, fitter);
+    if (fitter.has_border())
+      for (FaultParameter& p : found) settle(fault, fitter, p);
     all.insert(all.end(), found.begin(), found.end());
     from = end;
   }

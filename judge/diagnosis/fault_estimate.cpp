@@ -213,7 +213,7 @@ std::vector<FaultParameter> Estimate::vectors() const {
     return left;
   };
   const Triple3 start = {fault_.start, fault_.start, fault_.start};
-  const Triple3 vector = fitted({residuals, fault_.numbers, 1e-3, kScales}, start);
+  const Triple3 vector = fitted({residuals, fault_.numbers, 1e-3, kScales, fault_.start}, start);
   const auto is = [](double v) { return std::isfinite(v) && std::fabs(v) < 1e6; };
   if (vector == start || !std::all_of(vector.begin(), vector.end(), is)) return {};
   return {FaultParameter(0, vector)};

@@ -32,7 +32,10 @@ struct Finding {
   bool together = false;    ///< the second of two faults: `changed`, `explained` and `contradicted` are of both
   double alone = 0;         ///< the share that it explains without the other; `explained`, unless `together`
   bool fitted = false;      ///< its numbers are estimates, so that it can explain much by chance
-  bool partial = false;     ///< it leaves so much unexplained that it is no explanation: it may be part of it
+  double located = 0;       ///< the share that it says is wrong, and predicts no number of: not in `explained`
+  double left = 0;    ///< the share that stays far off, as no rounding leaves it; 0 of what is drawn with other edges
+  bool tied = false;  ///< no pixel tells it from the finding before it
+  bool partial = false;  ///< it leaves so much unexplained that it is no explanation: it may be part of it
   Proof proof;
   std::string command;  ///< that shows it: of who asked; diagnose() leaves it empty
 };
@@ -53,8 +56,8 @@ struct KnownFault {
 };
 std::vector<KnownFault> known_faults();
 
-/// Findings as JSON: an array of {name, plane, text, changed, explained, contradicted, together, alone, proof {x, y,
-/// plane, given, right, predicted, by_both, anything}, partial, command}.
+/// Findings as JSON: an array of {name, plane, text, changed, explained, contradicted, together, alone, located, left,
+/// tied, proof {x, y, plane, given, right, predicted, by_both, anything}, partial, command}.
 std::string findings_json(std::span<const Finding> findings);
 
 }  // namespace trueshade::oracle

@@ -85,6 +85,11 @@ Triple3 fitted(const LeastSquares& problem, Triple3 at) {
     return robust_error(residuals, last) <= robust_error(left, last) * 1.01 + 1e-9 &&
            robust_error(residuals, middle) <= robust_error(left, middle) * 1.01 + 1e-3;
   };
+  for (size_t k = 0; k < size_t(problem.numbers); ++k) {
+    Triple3 without = at;
+    without[k] = problem.none;
+    if (fits_as_well(problem.residuals(without))) at = without;
+  }
   for (const double unit : {1.0, 0.5, 0.1, 0.05, 0.01, 1e-3, 1e-4, 1e-5}) {
     Triple3 rounded{};
     for (size_t k = 0; k < size_t(problem.numbers); ++k) rounded[k] = std::nearbyint(at[k] / unit) * unit + 0.0;

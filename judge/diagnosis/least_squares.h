@@ -38,12 +38,14 @@ struct LeastSquares {
   int numbers = 3;                 ///< of the three, that are looked for
   double size = 1e-4;              ///< of a small change
   std::span<const double> scales;  ///< residuals beyond which there is another cause, from the widest
+  double none = 0;                 ///< of each number: what changes nothing
 };
 
 /// The sum by Cauchy's rule; what cannot be compared counts for as much as what is far off.
 double robust_error(const std::vector<double>& residuals, double scale);
 
-/// Levenberg and Marquardt's steps from `at`, with each scale in turn; then the shortest numbers that fit as well.
+/// Levenberg and Marquardt's steps from `at`, with each scale in turn; then the shortest numbers that fit as well,
+/// those that no residual shows left at what changes nothing.
 Triple3 fitted(const LeastSquares& problem, Triple3 at);
 
 }  // namespace trueshade::oracle

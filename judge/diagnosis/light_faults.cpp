@@ -192,7 +192,8 @@ constexpr double kExponents[] = {0.25, 0.5, 0.97, 1.03, 2, 4};
 constexpr double kFalloffs[] = {0, 1, 2, 3, 4, 5};
 constexpr double kNormalCodes[] = {255, 1023};
 constexpr double kStrides[] = {2, 3, 4};
-constexpr double kTiles[] = {0, 1, 2, 3, 4, 5, 6, 7};
+constexpr double kTiles[] = {0, 1, 2, 3, 4, 5, 6, 7},
+                 kListed[] = {1, 2, 3, 4, 6, 8, 10, 12, 16, 20, 24, 32, 64, 128, 256};
 
 std::string falloff_name(double f) {
   constexpr const char* kNames[] = {"linear_range", "quadratic", "none", "linear", "attenuation", "inverse_square"};
@@ -218,6 +219,17 @@ constexpr PictureFault lists_of_other_tiles(int side, std::string_view name, std
           .starts = kTiles,
           .tile = side,
           .says = neighbour_name};
+}
+
+constexpr PictureFault full_lists(int side, std::string_view name, std::string_view text) {
+  return {.name = name,
+          .text = text,
+          .light = nothing,
+          .can = lists_tiles,
+          .search = kOneOf,
+          .starts = kListed,
+          .tile = side,
+          .counts = true};
 }
 
 constexpr PictureFault stale_tiles(int side, std::string_view name, std::string_view text) {
@@ -350,6 +362,10 @@ constexpr PictureFault kFaults[] = {
     lists_of_other_tiles(16, "tile-lists-16", "tiles of 16x16 pixels are lit by the lists of the tiles %s"),
     lists_of_other_tiles(32, "tile-lists-32", "tiles of 32x32 pixels are lit by the lists of the tiles %s"),
     lists_of_other_tiles(64, "tile-lists-64", "tiles of 64x64 pixels are lit by the lists of the tiles %s"),
+    full_lists(8, "tile-count-8", "tiles of 8x8 pixels are lit by the first %s lights that reach them"),
+    full_lists(16, "tile-count-16", "tiles of 16x16 pixels are lit by the first %s lights that reach them"),
+    full_lists(32, "tile-count-32", "tiles of 32x32 pixels are lit by the first %s lights that reach them"),
+    full_lists(64, "tile-count-64", "tiles of 64x64 pixels are lit by the first %s lights that reach them"),
     stale_tiles(8, "tile-stale-8", "a few tiles of 8x8 pixels hold something else"),
     stale_tiles(16, "tile-stale-16", "a few tiles of 16x16 pixels hold something else"),
     stale_tiles(32, "tile-stale-32", "a few tiles of 32x32 pixels hold something else"),

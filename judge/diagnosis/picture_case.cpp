@@ -66,7 +66,8 @@ void PictureSupposition::suppose(const PictureFault& fault, const FaultParameter
   if (fault.light != nullptr || fault.tile > 0) known = nullptr;
   if (fault.value != nullptr) steps.push_back({fault.value, parameter});
   if (fault.move != nullptr) fault.move(move, parameter);
-  if (fault.tile > 0) tile = fault.tile, tile_from = int(parameter);
+  if (fault.tile > 0) tile = fault.tile, tile_from = fault.counts ? TileLists::kOwn : int(parameter);
+  if (fault.counts) tile_most = int(parameter);
   reach = std::max(reach, fault.reach);
   if (fault.stale > 0) stale = fault.stale;
 }
@@ -159,7 +160,8 @@ PictureCase::Prediction PictureCase::predicted(const PictureSupposition& suppose
   const auto [sx, sy] = source(supposed.move, x, y);
   const auto make = [&, sx = sx, sy = sy] {
     std::vector<uint8_t> listed;
-    if (supposed.tile > 0) listed = tiles_->list(supposed.pass, supposed.tile, supposed.tile_from, sx, sy);
+    if (supposed.tile > 0)
+      listed = tiles_->list(supposed.pass, supposed.tile, supposed.tile_from, supposed.tile_most, sx, sy);
     return predicted_pixel(supposed.pass, surface(sx, sy), supposed.tile > 0 ? &listed : nullptr);
   };
   const PredictedPixel pixel = supposed.known != nullptr ? supposed.known->at(sx, sy, make) : make();
@@ -297,7 +299,7 @@ Disagreement PictureCase::disagreement(const PictureSupposition& supposed, const
     const double off = steps_off(supposed, pixels[i]), weight = pixels[i].weight;
     const bool is_anything = in_stale_tile(supposed, pixels[i].x, pixels[i].y);
     d.cost += weight * (is_anything ? kAnythingCost : cost_of(off));
-    if (off_if_right[i] >= kSameSteps && off < kSameSteps) d.explained += weight;
+    if (off_if_right[i] >= kSameSteps && off < kSameSteps) (is_anything ? d.located : d.explained) += weight;
     if (off_if_right[i] < kSameSteps && off >= kSameSteps) d.contradicted += weight;
   }
   return d;

@@ -1,5 +1,6 @@
 #pragma once
 // A captured picture against what its own G-buffer should have made it, under any faults that are supposed.
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -45,10 +46,11 @@ struct PictureSupposition {
   };
   std::vector<Step> steps;
   Move move;
-  int tile = 0, tile_from = 0;  ///< pixels a side of tiles; whose lists they have, of eight neighbours
+  int tile = 0, tile_from = 0;  ///< pixels a side of tiles; whose lists they have, of eight neighbours, or their own
+  int tile_most = std::numeric_limits<int>::max();  ///< lights that a list holds
   double reach = 0;
-  int stale = 0;  ///< pixels a side of tiles, those of which that stand out hold anything
-  std::shared_ptr<KnownPixels> known = std::make_shared<KnownPixels>();  ///< by the pass; null: not worth keeping
+  int stale = 0;                       ///< pixels a side of tiles, those of which that stand out hold anything
+  std::shared_ptr<KnownPixels> known;  ///< by the pass; null: not worth keeping
 
   void suppose(const PictureFault& fault, const FaultParameter& parameter);
 };
@@ -59,7 +61,11 @@ class PictureCase {
   PictureCase(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
               const StageVerdict& stage);
 
-  PictureSupposition right() const { return {right_, {}, {}, 0, 0, 0, 0, known_}; }
+  PictureSupposition right() const {
+    PictureSupposition s;
+    s.pass = right_, s.known = known_;
+    return s;
+  }
   const std::vector<SampledPixel>& sample() const { return sample_; }
   const std::vector<SampledPixel>& few() const { return few_; }  ///< of the sample, for a first look
 

@@ -51,6 +51,7 @@ struct PictureFault {
   void (*by_vector)(LightPass&, const std::array<double, 3>&) = nullptr;  ///< of Search::vector
   int numbers = 3;                                                        ///< components that the fault has
   std::span<const std::array<double, 3>> from{};                          ///< other vectors to start from
+  bool counts = false;  ///< the lists of `tile` are its own, and hold the parameter's number of lights at most
 
   ParameterForm form() const {
     if (search == Search::none) return {};

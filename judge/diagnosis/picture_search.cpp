@@ -21,6 +21,8 @@ constexpr double kLeastChanged = 8;                      ///< pixels below which
 constexpr double kNearOne = 0.015;                       ///< factors that change values by about a code
 constexpr double kLeftByFew = 0.25, kLeftByTwo = 0.175;  ///< of what disagrees, that such a factor may leave
 constexpr size_t kFirstOfPairs = 5, kFinalists = 8;
+constexpr double kFarOff = 1.5;  ///< steps, beyond what sums in another order and estimates leave
+constexpr size_t kFew = 3;       ///< pixels so far off that may be by chance
 
 struct Candidate {
   std::vector<NamedFault> faults;
@@ -62,8 +64,9 @@ class PictureSearch {
   Finding finding(std::span<const NamedFault> faults, size_t which) const;
   std::vector<Candidate> named(std::vector<Candidate> singles) const;
   Proof proof(std::span<const NamedFault> faults, std::span<const NamedFault> too_few) const;
+  double left(std::span<const NamedFault> faults) const;
   bool explains(const Candidate& c) const {
-    return c.found.explained - c.found.contradicted >= kNamed * changed_ && c.found.cost < cost_;
+    return c.found.explained + c.found.located - c.found.contradicted >= kNamed * changed_ && c.found.cost < cost_;
   }
 
   PictureCase& picture_;
@@ -168,6 +171,17 @@ Proof PictureSearch::proof(std::span<const NamedFault> faults, std::span<const N
   return proof;
 }
 
+/// Of the pixels that are not as they should be, how many as the faults have them are far off, those too that were
+/// right.
+double PictureSearch::left(std::span<const NamedFault> faults) const {
+  const std::vector<double> now = picture_.steps_off(supposed(faults), picture_.sample());
+  double weight = 0;
+  size_t pixels = 0;
+  for (size_t i = 0; i < now.size(); ++i)
+    if (now[i] > kFarOff) weight += picture_.sample()[i].weight, ++pixels;
+  return pixels < kFew ? 0 : weight / changed_;
+}
+
 /// The fault with those that come before it.
 Finding PictureSearch::finding(std::span<const NamedFault> faults, size_t which) const {
   const NamedFault& fault = faults[which];
@@ -176,9 +190,9 @@ Finding PictureSearch::finding(std::span<const NamedFault> faults, size_t which)
   Finding f;
   f.name = name_of(*fault.fault, fault.parameter), f.plane = "picture", f.text = text_of(*fault.fault, fault.parameter);
   f.changed = uint64_t(std::llround(changed_));
-  f.explained = together.found.explained / changed_;
+  f.explained = together.found.explained / changed_, f.located = together.found.located / changed_;
   f.contradicted = same_ > 0 ? together.found.contradicted / same_ : 0;
-  f.together = which > 0;
+  f.together = which > 0, f.left = left(up_to_it);
   f.fitted = fault.fault->search != Search::none && fault.fault->search != Search::one_of;
   f.alone = f.together ? judged({fault}, true).found.explained / changed_ : f.explained;
   f.proof = proof(up_to_it, before);

@@ -10,7 +10,7 @@ namespace trueshade::oracle {
 namespace {
 
 constexpr int kLeastTile = 8;
-constexpr int kNeighbours[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
+constexpr int kNeighbours[9][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}, {0, 0}};
 
 bool is_left_out(const StageVerdict& stage, int x, int y) {
   return stage.classes[size_t(y) * size_t(stage.width) + size_t(x)] == PixelClass::left_out;
@@ -117,18 +117,18 @@ TileLists::TileLists(const CapturedSurface& surfaces, int width, int height) : w
   }
 }
 
-/// Lights whose range reaches the box of the tile that the pixel's list is from.
-std::vector<uint8_t> TileLists::list(const LightPass& pass, int side, int from, int x, int y) const {
+/// The first lights whose range reaches the box of the tile that the pixel's list is from.
+std::vector<uint8_t> TileLists::list(const LightPass& pass, int side, int from, int most, int x, int y) const {
   const int across = (width_ + side - 1) / side, down = (height_ + side - 1) / side;
   const int* step = kNeighbours[from];
   const int tx = std::clamp(x / side + step[0], 0, across - 1), ty = std::clamp(y / side + step[1], 0, down - 1);
   const Box& box = boxes_.at(side)[size_t(ty) * size_t(across) + size_t(tx)];
   std::vector<uint8_t> listed(pass.lights.size());
-  for (size_t i = 0; i < listed.size(); ++i) {
+  for (size_t i = 0; i < listed.size() && most > 0; ++i) {
     const Light& light = pass.lights[i];
     const double range = double(light.range) * pass.fault.range;
     if (light.type == LightType::ambient || light.type == LightType::directional || std::isinf(range)) {
-      listed[i] = 1;
+      listed[i] = 1, --most;
       continue;
     }
     double squared = 0;
@@ -138,6 +138,7 @@ std::vector<uint8_t> TileLists::list(const LightPass& pass, int side, int from, 
       squared += outside * outside;
     }
     listed[i] = !box.empty && squared < range * range ? 1 : 0;
+    most -= listed[i];
   }
   return listed;
 }

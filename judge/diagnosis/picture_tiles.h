@@ -38,8 +38,10 @@ class TileLists {
   TileLists(const CapturedSurface& surfaces, int width, int height);
 
   /// Whether each light of the pass is in the list of the tile beside the pixel's: lights whose range reaches its box.
-  ///   from: which of its eight neighbours
-  std::vector<uint8_t> list(const LightPass& pass, int side, int from, int x, int y) const;
+  ///   from: which of its eight neighbours, or kOwn
+  ///   most: lights that a list holds, the first ones
+  static constexpr int kOwn = 8;
+  std::vector<uint8_t> list(const LightPass& pass, int side, int from, int most, int x, int y) const;
 
  private:
   struct Box {

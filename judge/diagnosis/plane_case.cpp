@@ -62,7 +62,8 @@ int PlaneCase::planes() const {
 namespace {
 
 /// False: there is nothing that the fault changes.
-bool redrawn(Scene& scene, Pipeline& pipeline, const NamedPlaneFault& f) {
+bool redrawn(Scene& scene, Pipeline& pipeline, Profile& profile, const NamedPlaneFault& f) {
+  if (f.fault->sample != nullptr) return f.fault->sample(scene, profile.sampling, f.parameter.number);
   return f.fault->edit != nullptr ? f.fault->edit(scene, pipeline, f.parameter)
                                   : f.fault->redraw(scene, pipeline, f.parameter.number);
 }
@@ -75,10 +76,11 @@ std::optional<PlaneSupposition> PlaneCase::with(const PlaneSupposition& base, co
   if (!fault.fault->redraws()) return s;
   const auto scene = std::make_shared<Scene>(scene_);
   Pipeline pipeline = pipeline_;
+  Profile profile = profile_;
   for (const NamedPlaneFault& f : s.faults)
-    if (f.fault->redraws() && !redrawn(*scene, pipeline, f)) return std::nullopt;
+    if (f.fault->redraws() && !redrawn(*scene, pipeline, profile, f)) return std::nullopt;
   s.scene = scene;
-  s.drawn = std::make_shared<ExpectedPlanes>(*scene, pipeline, profile_, drawn_at_);
+  s.drawn = std::make_shared<ExpectedPlanes>(*scene, pipeline, profile, drawn_at_);
   return s;
 }
 
@@ -229,7 +231,12 @@ PlaneValues PlaneCase::given(int x, int y) const {
 }
 
 PlaneEvidence PlaneCase::evidence() const {
-  PlaneEvidence e{scene_, pipeline_, {}, {}};
+  PlaneEvidence e{scene_,
+                  pipeline_,
+                  {},
+                  {},
+                  [this](int x, int y) { return given(x, y); },
+                  [this](int x, int y) { return views_[size_t(Plane::object)].stored(x, y, 0); }};
   for (size_t k = 0; k < kPlanes; ++k) e.has[k] = bool(views_[k]);
   for (const SampledPixel& p : sample_) {
     const ExpectedPixel expected = right_->at(p.x, p.y);

@@ -1,5 +1,6 @@
 #pragma once
 // What a capture shows at the pixels that are looked at, for estimates of what was drawn there.
+#include <functional>
 #include <vector>
 
 #include "judge/diagnosis/disagreement.h"
@@ -20,6 +21,8 @@ struct PlaneEvidence {
   const Pipeline& pipeline;
   std::array<bool, kPlanes> has{};  ///< planes that were captured
   std::vector<EvidentPixel> pixels;
+  std::function<PlaneValues(int x, int y)> given_at;  ///< as EvidentPixel::given, of any pixel
+  std::function<double(int x, int y)> object_at;      ///< its identifier alone
 
   bool has_plane(Plane plane) const { return has[size_t(plane)]; }
 };

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "judge/bounds/profile.h"
 #include "judge/diagnosis/expected_planes.h"
 #include "judge/diagnosis/fault_parameter.h"
 
@@ -68,7 +69,8 @@ struct PlaneFault {
   bool averages = false;   ///< pixels that are off may be averages of two surfaces beside one another
   bool estimated = false;  ///< what `suspects` names are numbers of the pixels
   double start = 0;        ///< of each number: what changes nothing
-  double change_of = 0;    ///< a small change of a number; below 0, that part of the scene's extent
+  bool (*sample)(const Scene&, Sampling&, double) = nullptr;  ///< as redraw, by how textures are read
+  double change_of = 0;  ///< a small change of a number; below 0, that part of the scene's extent
 
   ParameterForm form() const {
     if (search == Search::suspected) return numbers;
@@ -76,7 +78,7 @@ struct PlaneFault {
   }
   /// Whether its numbers are estimates, and only as good as the pixels.
   bool is_estimate() const { return fit != Fit::none || search == Search::smooth || estimated; }
-  bool redraws() const { return redraw != nullptr || edit != nullptr; }
+  bool redraws() const { return redraw != nullptr || edit != nullptr || sample != nullptr; }
 };
 
 std::span<const PlaneFault> plane_faults();     ///< plane_faults.cpp: encodings and moves

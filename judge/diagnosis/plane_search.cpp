@@ -2,27 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
-#include "core/threads/parallel_for.h"
-#include "judge/diagnosis/plane_case.h"
+#include "judge/diagnosis/object_border.h"
+#include "judge/diagnosis/plane_parameters.h"
 
 namespace trueshade::oracle {
 
 namespace {
 
-using Search = PlaneFault::Search;
-
 constexpr double kNamed = 1.0 / 3, kParameterCost = 0.002, kRival = 0.06, kPairGain = 0.6, kLeastChanged = 8;
 constexpr double kExplained = 0.03;  ///< of what a G-buffer costs where nothing is wrong
 constexpr size_t kFirstOfPairs = 3, kFinalists = 8;
-constexpr uint64_t kMostTriangles = 1000000;  ///< of a scene that is drawn again for every fault
+constexpr double kEstimateCost = 0.01;          ///< numbers that are fitted explain more by chance
+constexpr double kFarOff = 1.5, kNearer = 0.1;  ///< steps, and of what it was off
+constexpr uint64_t kMostTriangles = 1000000;    ///< of a scene that is drawn again for every fault
 
 struct Candidate {
   PlaneSupposition supposed;
   Disagreement found;
   std::array<double, kPlanes> costs{};  ///< by plane
   double cost = 0;                      ///< of what it costs where nothing is wrong
+  double left = 0;                      ///< of what is equally cheap: PlaneSearch::left_of()
 };
 
 class PlaneSearch {
@@ -44,57 +44,40 @@ class PlaneSearch {
   std::vector<Candidate> look() const;
   Candidate judged(PlaneSupposition supposed, bool all) const;
   Finding finding(std::span<const NamedPlaneFault> faults, size_t which) const;
+  bool told_apart(const Candidate& a, const Candidate& b) const;
 
  private:
-  using Steps = std::vector<std::array<double, kPlanes>>;
   /// How many pixels are not as they should be, and shares of these and of the others.
   struct Share {
-    double changed = 0, explained = 0, contradicted = 0;
+    double changed = 0, explained = 0, contradicted = 0, left = 0;
   };
-  static bool agrees(const std::array<double, kPlanes>& off, Plane plane = Plane::all) {
-    if (plane != Plane::all) return off[size_t(plane)] < kSameSteps;
-    return std::all_of(off.begin(), off.end(), [](double o) { return o < kSameSteps; });
-  }
   double cost(const std::array<double, kPlanes>& off) const {
     double sum = 0;
     for (const double o : off) sum += cost_of(o);
     return sum / planes_.planes();
   }
-  Steps off(const PlaneSupposition& supposed, const std::vector<SampledPixel>& pixels,
-            const Steps* before = nullptr) const;
-  double smooth(const PlaneSupposition& base, const PlaneFault& fault) const;
-  std::vector<FaultParameter> parameters(const PlaneSupposition& base, const PlaneFault& fault) const;
+  PlaneSteps off(const PlaneSupposition& supposed, const std::vector<SampledPixel>& pixels,
+                 const PlaneSteps* before = nullptr) const {
+    return plane_steps(planes_, supposed, pixels, before);
+  }
   std::vector<Candidate> beside(const PlaneSupposition& base, bool redraw) const;
   bool bears_on(const PlaneFault& fault) const;
+  double left_of(const PlaneSupposition& supposed) const;
+  void rank_equals(std::vector<Candidate>& singles) const;
   PlaneSupposition supposed(std::span<const NamedPlaneFault> faults) const;
   Share share(const PlaneSupposition& supposed, Plane plane) const;
   Proof proof(const PlaneSupposition& supposed, Plane plane, const PlaneSupposition* too_few) const;
 
   const PlaneCase& planes_;
   PlaneEvidence evidence_;
-  Steps off_few_, off_;
+  PlaneSteps off_few_, off_;
   std::array<double, kPlanes> wrong_{};
   double changed_ = 0, cost_few_ = 0, cost_ = 0;
 };
 
-/// Numbers that are fitted are as good as their pixels: what is left of a difference by less than its hundredth is.
-PlaneSearch::Steps PlaneSearch::off(const PlaneSupposition& supposed, const std::vector<SampledPixel>& pixels,
-                                    const Steps* before) const {
-  constexpr double kOfDifference = 0.01;
-  const bool fits = std::any_of(supposed.faults.begin(), supposed.faults.end(),
-                                [](const NamedPlaneFault& f) { return f.fault->is_estimate(); });
-  Steps steps(pixels.size());
-  parallel_for(int(pixels.size()), 0, [&](int i) {
-    steps[size_t(i)] = planes_.steps_off(supposed, pixels[size_t(i)].x, pixels[size_t(i)].y);
-    for (size_t k = 0; fits && before != nullptr && k < kPlanes; ++k)
-      if (steps[size_t(i)][k] < kOfDifference * (*before)[size_t(i)][k]) steps[size_t(i)][k] = 0;
-  });
-  return steps;
-}
-
 Candidate PlaneSearch::judged(PlaneSupposition supposed, bool all) const {
   const std::vector<SampledPixel>& pixels = all ? planes_.sample() : planes_.few();
-  const Steps &before = all ? off_ : off_few_, now = off(supposed, pixels, &before);
+  const PlaneSteps &before = all ? off_ : off_few_, now = off(supposed, pixels, &before);
   Candidate c;
   for (size_t i = 0; i < pixels.size(); ++i) {
     c.found.cost += pixels[i].weight * cost(now[i]);
@@ -102,85 +85,31 @@ Candidate PlaneSearch::judged(PlaneSupposition supposed, bool all) const {
     if (agrees(before[i]) && !agrees(now[i])) c.found.contradicted += pixels[i].weight;
   }
   c.cost = c.found.cost / (all ? cost_ : cost_few_);
-  for (const NamedPlaneFault& f : supposed.faults) c.cost += f.fault->doubt + kParameterCost * f.fault->form().count();
+  for (const NamedPlaneFault& f : supposed.faults)
+    c.cost += f.fault->doubt + kParameterCost * f.numbers() + (f.fault->is_estimate() ? kEstimateCost : 0);
   c.supposed = std::move(supposed);
   return c;
 }
 
-/// Only planes that are wrong can have a fault of their own; drawing otherwise changes most of them.
+/// Only planes that are wrong can have a fault of their own; drawing otherwise changes most of them, and samples that
+/// are averaged change all planes of numbers.
 bool PlaneSearch::bears_on(const PlaneFault& fault) const {
+  if (fault.averages) {
+    int captured = 0, off = 0;
+    for (const Plane plane : {Plane::depth, Plane::position, Plane::normal})
+      captured += planes_.view(plane) ? 1 : 0, off += wrong_[size_t(plane)] >= kLeastChanged ? 1 : 0;
+    if (off < std::min(2, captured)) return false;
+  }
   if (fault.plane != Plane::all) return wrong_[size_t(fault.plane)] >= kLeastChanged;
   return changed_ >= kLeastChanged;
 }
 
-/// The best factor: that of the starts, and then golden sections about it.
-double PlaneSearch::smooth(const PlaneSupposition& base, const PlaneFault& fault) const {
-  constexpr double kRatio = 0.6180339887498949;
-  const auto cost_at = [&](double parameter) {  // what is far off counts more than what is less far off
-    const std::optional<PlaneSupposition> s = planes_.with(base, {&fault, parameter});
-    double sum = 0;
-    const Steps now = s ? off(*s, planes_.few()) : Steps{};
-    for (size_t i = 0; i < now.size(); ++i)
-      sum += planes_.few()[i].weight * std::log2(1 + std::min(1e9, now[i][size_t(fault.plane)]));
-    return s ? sum : HUGE_VAL;
-  };
-  double best = 0, least = HUGE_VAL;
-  const auto better = [&](double parameter) {
-    const double c = cost_at(parameter);
-    if (c < least) least = c, best = parameter;
-    return c;
-  };
-  for (const double start : fault.starts) better(start);
-  double low = best / 2, high = best * 2, a = high - kRatio * (high - low), b = low + kRatio * (high - low);
-  double cost_a = better(a), cost_b = better(b);
-  for (int i = 0; i < 34; ++i) {
-    const bool left = cost_a <= cost_b;
-    (left ? high : low) = left ? b : a, (left ? b : a) = left ? a : b,
-                   (left ? cost_b : cost_a) = left ? cost_a : cost_b;
-    (left ? a : b) = left ? high - kRatio * (high - low) : low + kRatio * (high - low);
-    (left ? cost_a : cost_b) = better(left ? a : b);
-  }
-  for (const double unit : {0.1, 0.05, 0.01, 1e-3, 1e-4}) {
-    const double rounded = std::nearbyint(best / unit) * unit;
-    if (rounded > 0 && rounded != 1 && cost_at(rounded) <= least * 1.001) return rounded;
-  }
-  return best;
-}
-
-/// The parameters that are tried for a fault: its table's, or one that is estimated from the pixels.
-std::vector<FaultParameter> PlaneSearch::parameters(const PlaneSupposition& base, const PlaneFault& fault) const {
-  if (fault.search == Search::none) return {0};
-  if (fault.search == Search::one_of) return {fault.starts.begin(), fault.starts.end()};
-  if (fault.search == Search::smooth) return {smooth(base, fault)};
-  if (fault.search == Search::suspected) return suspected_parameters(evidence_, fault);
-  std::vector<double> differences;
-  std::map<uint32_t, double> votes;
-  for (size_t i = 0; i < off_few_.size(); ++i) {
-    const SampledPixel& p = planes_.few()[i];
-    if (agrees(off_few_[i])) continue;
-    const ExpectedPixel expected = planes_.expected(p.x, p.y);
-    if (!expected.value.covered) continue;
-    votes[uint32_t(expected.value.object) - 1] += p.weight;
-    if (const PlaneView& depth = planes_.view(Plane::depth))
-      differences.push_back(depth.stored(p.x, p.y, 0) - planes_.predicted(base, Plane::depth, p.x, p.y, 0));
-  }
-  if (fault.search == Search::object) {
-    std::vector<std::pair<double, double>> ranked;
-    for (const auto& [object, weight] : votes) ranked.emplace_back(-weight, double(object));
-    std::sort(ranked.begin(), ranked.end());
-    if (ranked.size() > 2) ranked.resize(2);
-    std::vector<FaultParameter> objects;
-    for (const auto& [weight, object] : ranked) objects.emplace_back(object);
-    return objects;
-  }
-  if (differences.empty()) return {};
-  std::nth_element(differences.begin(), differences.begin() + int64_t(differences.size() / 2), differences.end());
-  return {differences[differences.size() / 2]};
-}
-
 std::vector<Candidate> PlaneSearch::beside(const PlaneSupposition& base, bool redraw) const {
   std::vector<Candidate> candidates;
-  const auto leaves_nothing = [&](const Candidate& c) { return c.found.cost < 1e-3 * cost_few_; };
+  // Of an object more names than one may explain as much, and it is said that they do.
+  const auto leaves_nothing = [&](const Candidate& c) {
+    return c.found.cost < 1e-3 * cost_few_ && c.supposed.faults.back().fault->fit != Fit::object;
+  };
   const auto tries = [&](std::span<const PlaneFault> table) {
     for (const PlaneFault& fault : table) {
       const auto same = [&](const NamedPlaneFault& f) { return f.fault == &fault; };
@@ -188,7 +117,7 @@ std::vector<Candidate> PlaneSearch::beside(const PlaneSupposition& base, bool re
       // Where nothing is left to explain no fit can do better.
       if (fault.fit != Fit::none && std::any_of(candidates.begin(), candidates.end(), leaves_nothing)) continue;
       std::optional<Candidate> best;
-      for (const FaultParameter& parameter : parameters(base, fault)) {
+      for (const FaultParameter& parameter : likely_parameters(planes_, evidence_, base, fault, off_few_)) {
         std::optional<PlaneSupposition> s = planes_.with(base, {&fault, parameter});
         if (!s) continue;
         Candidate c = judged(std::move(*s), false);
@@ -242,6 +171,7 @@ std::vector<Candidate> PlaneSearch::look() const {
     if (faults.size() == 2 && alone(faults[1]) > alone(faults[0])) std::swap(faults[0], faults[1]);
     return {std::move(pairs.front())};
   }
+  rank_equals(singles);
   const double most = singles.front().cost + kRival;
   singles.erase(
       std::remove_if(singles.begin(), singles.end(), [&](const Candidate& c) { return !explains(c) || c.cost > most; }),
@@ -256,9 +186,68 @@ PlaneSupposition PlaneSearch::supposed(std::span<const NamedPlaneFault> faults) 
   return s;
 }
 
+/// Whether more is left of a difference than rounding and what is legal of a plane make.
+bool is_far_off(const std::array<double, kPlanes>& now, const std::array<double, kPlanes>& before, Plane plane) {
+  for (size_t k = 0; k < kPlanes; ++k)
+    if ((plane == Plane::all || plane == Plane(k)) && now[k] > kFarOff && now[k] > kNearer * before[k]) return true;
+  return false;
+}
+
+/// Of the pixels that are not as they should be, what is left of the difference to what is likeliest: where much is
+/// legal two faults may both explain a pixel, and one of them be nearer. In thousandths.
+double PlaneSearch::left_of(const PlaneSupposition& supposed) const {
+  double sum = 0;
+  for (size_t i = 0; i < off_.size(); ++i) {
+    const auto [x, y, weight] = planes_.sample()[i];
+    double most = 0;
+    for (size_t plane = 0; plane < kPlanes; ++plane)
+      for (int k = 0; off_[i][plane] >= kSameSteps && k < planes_.view(Plane(plane)).channels; ++k) {
+        const double given = planes_.view(Plane(plane)).stored(x, y, k),
+                     was = std::fabs(given - planes_.predicted(planes_.right(), Plane(plane), x, y, k)),
+                     is = std::fabs(given - planes_.predicted(supposed, Plane(plane), x, y, k));
+        if (was > 0) most = std::max(most, std::min(1.0, is / was));
+      }
+    sum += weight * most;
+  }
+  // Of an object, all of its outline: a sample may miss the few pixels that tell how it is changed.
+  int missed = 0;
+  for (const NamedPlaneFault& f : supposed.faults)
+    for (const SampledPixel& p : f.fault->fit == Fit::object ? outline_of(evidence_, uint32_t(f.parameter.number))
+                                                             : std::vector<SampledPixel>{})
+      missed += agrees(planes_.steps_off(supposed, p.x, p.y)) ? 0 : 1;
+  return missed + std::nearbyint(1000 * sum / changed_);
+}
+
+/// Those that cost about as little as the first by what they leave.
+void PlaneSearch::rank_equals(std::vector<Candidate>& singles) const {
+  constexpr double kSameCost = 1e-4;
+  size_t equals = 1;
+  while (equals < singles.size() && singles[equals].cost < singles[0].cost + kSameCost) ++equals;
+  for (size_t i = 0; equals > 1 && i < equals; ++i) singles[i].left = left_of(singles[i].supposed);
+  std::stable_sort(singles.begin(), singles.begin() + ptrdiff_t(equals),
+                   [](const Candidate& a, const Candidate& b) { return a.left < b.left; });
+}
+
+/// Whether pixels or the count of numbers tell which of two it is.
+bool PlaneSearch::told_apart(const Candidate& a, const Candidate& b) const {
+  const auto numbers = [](const Candidate& c) {
+    int sum = 0;
+    for (const NamedPlaneFault& f : c.supposed.faults) sum += f.numbers();
+    return sum;
+  };
+  if (numbers(a) != numbers(b) || a.left != b.left) return true;
+  const PlaneSteps one = off(a.supposed, planes_.sample(), &off_), other = off(b.supposed, planes_.sample(), &off_);
+  for (size_t i = 0; i < one.size(); ++i)
+    if (agrees(one[i]) != agrees(other[i])) return true;
+  return false;
+}
+
 /// Of the pixels of one plane, or of all.
 PlaneSearch::Share PlaneSearch::share(const PlaneSupposition& supposed, Plane plane) const {
-  const Steps now = off(supposed, planes_.sample(), &off_);
+  const PlaneSteps now = off(supposed, planes_.sample(), &off_);
+  const bool edges = std::any_of(supposed.faults.begin(), supposed.faults.end(), [](const NamedPlaneFault& f) {
+    return f.fault->redraws() || f.fault->move != nullptr || f.fault->averages;
+  });
   Share out;
   double same = 0;
   for (size_t i = 0; i < off_.size(); ++i) {
@@ -267,8 +256,9 @@ PlaneSearch::Share PlaneSearch::share(const PlaneSupposition& supposed, Plane pl
     (was ? same : out.changed) += weight;
     if (!was && is) out.explained += weight;
     if (was && !is) out.contradicted += weight;
+    if (!is && !edges && is_far_off(now[i], off_[i], plane)) out.left += weight;
   }
-  if (out.changed > 0) out.explained /= out.changed;
+  if (out.changed > 0) out.explained /= out.changed, out.left /= out.changed;
   if (same > 0) out.contradicted /= same;
   return out;
 }
@@ -278,7 +268,7 @@ PlaneSearch::Share PlaneSearch::share(const PlaneSupposition& supposed, Plane pl
 Proof PlaneSearch::proof(const PlaneSupposition& supposed, Plane plane, const PlaneSupposition* too_few) const {
   Proof proof;
   double farthest = 0;
-  const Steps now = off(supposed, planes_.sample(), &off_);
+  const PlaneSteps now = off(supposed, planes_.sample(), &off_);
   for (size_t i = 0; i < off_.size(); ++i) {
     const auto [x, y, weight] = planes_.sample()[i];
     const size_t worst = plane != Plane::all
@@ -311,7 +301,7 @@ Finding PlaneSearch::finding(std::span<const NamedPlaneFault> faults, size_t whi
   f.name = name_of(*fault.fault, fault.parameter), f.text = text_of(*fault.fault, fault.parameter);
   f.plane = kPlaneNames[size_t(own)];
   f.changed = uint64_t(std::llround(found.changed));
-  f.explained = found.explained, f.contradicted = found.contradicted;
+  f.explained = found.explained, f.contradicted = found.contradicted, f.left = found.left;
   f.together = which > 0, f.fitted = fault.fault->is_estimate() || fault.fault->averages;
   f.alone = f.together ? share(supposed({&fault, 1}), own).explained : f.explained;
   f.proof = proof(up_to_it, own, which > 0 ? &before : nullptr);
@@ -350,6 +340,7 @@ PlaneFindings plane_findings(const Scene& scene, const Pipeline& pipeline, const
     const auto unproved = [](const Finding& f) { return f.proof.plane.empty(); };
     if (only.empty() && std::any_of(named.begin(), named.end(), unproved)) continue;
     if (out.findings.empty()) out.drawn = c.supposed.scene;
+    if (!out.findings.empty() && !search.told_apart(found.front(), c)) named.front().tied = true;
     for (Finding& f : named) out.findings.push_back(std::move(f));
   }
   return out;

@@ -13,6 +13,14 @@ namespace trueshade::oracle {
 struct NamedPlaneFault {
   const PlaneFault* fault = nullptr;
   FaultParameter parameter;
+
+  /// How many its name gives, without those that change nothing.
+  int numbers() const {
+    const ParameterForm form = fault->form();
+    int count = form.count();
+    for (int k = 0; k < form.vector; ++k) count -= parameter.vector[size_t(k)] == fault->start ? 1 : 0;
+    return count;
+  }
 };
 
 /// Findings about the G-buffer, the likeliest first, as diagnose() has them, and the planes that are not as expected.

@@ -161,6 +161,13 @@ bool recode_textures(Scene& s, Pipeline&, double) {
 bool bias_lod(Scene& s, Pipeline&, double bias) {
   return change_samplers(s, [bias](Sampler& sampler) { sampler.lod_bias += float(bias); });
 }
+/// Where maps have levels, which are not all that a filter reads.
+bool filter_anisotropically(const Scene& s, Sampling& rules, double most) {
+  rules.anisotropy = int(most);
+  return std::any_of(s.materials.begin(), s.materials.end(), [](const Material& m) {
+    return m.color_map.used() && m.color_map.sampler.mip_filter != MipFilter::none;
+  });
+}
 bool wrap(Scene& s, Pipeline&, double way) {
   return change_samplers(s, [way](Sampler& sampler) { sampler.wrap = {Wrap(int(way)), Wrap(int(way))}; });
 }
@@ -254,7 +261,7 @@ constexpr double kFaces[] = {0, 1, 2}, kFuncs[] = {1, 3, 4, 6, 7},
                  kFormats2[] = {double(Format::d16), double(Format::d24), double(Format::d32f)},
                  kDirectionNumbers[] = {0, 1, 2, 3, 4, 5, 6, 7}, kFilters[] = {0, 1, 2, 3, 4, 5, 6},
                  kBiases[] = {-2, -1, -0.5, 0.5, 1, 2}, kWraps[] = {0, 1, 2}, kOffsets2[] = {-2, -1, 1, 2},
-                 kNoPerspective[] = {2}, kShaders[] = {0, 1, 2};
+                 kNoPerspective[] = {2}, kShaders[] = {0, 1, 2}, kAnisotropies[] = {2, 4, 8, 16};
 
 using Fault2 = PlaneFault;
 constexpr auto kOne = Fault2::Search::one_of;
@@ -293,6 +300,11 @@ constexpr PlaneFault kFaults2[] = {
      filter_name},
     {"texture-lod-bias", "the textures' level of detail is off by %s", Plane::all, nullptr, bias_lod, nullptr, kOne,
      kBiases},
+    {.name = "texture-anisotropy",
+     .text = "an anisotropic filter of up to %s lookups is on",
+     .search = kOne,
+     .starts = kAnisotropies,
+     .sample = filter_anisotropically},
     {"texture-wrap", "textures wrap by `%s`", Plane::all, nullptr, wrap, nullptr, kOne, kWraps, 0, 0, wrap_name},
     {"texture-flip-v", "the textures are upside down", Plane::all, nullptr, turn_textures},
     {"texture-srgb", "colour maps are decoded as sRGB where they are linear, or taken as linear where they are sRGB",

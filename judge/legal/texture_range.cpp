@@ -142,11 +142,57 @@ TexelHull filtered_range(const TexelSource& texels, const Interval& lod, const T
   return r;
 }
 
+/// How many lookups a pixel gets that is so many times as long as it is wide.
+int lookups_of(long double ratio, int most) { return ratio < most ? std::max(1, int(std::ceil(ratio))) : most; }
+
+/// The mean of N isotropic lookups along the pixel's longer axis, each of a pixel an N-th as long
+/// (EXT_texture_filter_anisotropic, "The scale factor"). The ratio of the axes may be a little off.
+std::array<Range, 4> anisotropic_range(const Texture& texture, const Sampler& s, const TextureSample& at,
+                                       const Profile& profile, LevelHulls* hulls) {
+  constexpr long double kRatioError = 0.01L;
+  const TexturePlace& p = at.nominal;
+  const long double w = texture.levels[0].width, h = texture.levels[0].height;
+  const long double along_x = std::hypot(p.u_x * w, p.v_x * h), along_y = std::hypot(p.u_y * w, p.v_y * h);
+  const bool x_is_longer = along_x > along_y;
+  const long double longer = std::max(along_x, along_y), shorter = std::min(along_x, along_y);
+  const long double ratio = shorter > 0 ? longer / shorter : HUGE_VALL;
+  const int most = profile.sampling.anisotropy, nominal = lookups_of(ratio, most);
+  Profile isotropic = profile;
+  isotropic.sampling.anisotropy = 1;
+  const auto mean_of = [&](int lookups) {
+    Sampler sampler = s;
+    sampler.lod_bias -= float(std::log2(lookups));
+    std::array<Range, 4> mean{};
+    for (int i = 1; i <= lookups; ++i) {
+      const long double aside = (long double)(i) / (lookups + 1) - 0.5L;
+      const auto du = double((x_is_longer ? p.u_x : p.u_y) * aside), dv = double((x_is_longer ? p.v_x : p.v_y) * aside);
+      TextureSample one = at;
+      one.nominal.u += du, one.nominal.v += dv;
+      one.u = {at.u.value + du, at.u.low + du, at.u.high + du},
+      one.v = {at.v.value + dv, at.v.low + dv, at.v.high + dv};
+      const std::array<Range, 4> texel = texel_range(texture, sampler, one, isotropic, hulls);
+      for (size_t c = 0; c < 4; ++c)
+        mean[c].value += texel[c].value / lookups, mean[c].low += texel[c].low / lookups,
+            mean[c].high += texel[c].high / lookups;
+    }
+    return mean;
+  };
+  std::array<Range, 4> all = mean_of(nominal);
+  for (const int other : {lookups_of(ratio * (1 - kRatioError), most), lookups_of(ratio * (1 + kRatioError), most)}) {
+    if (other == nominal) continue;
+    const std::array<Range, 4> mean = mean_of(other);
+    for (size_t c = 0; c < 4; ++c)
+      all[c].low = std::min(all[c].low, mean[c].low), all[c].high = std::max(all[c].high, mean[c].high);
+  }
+  return all;
+}
+
 }  // namespace
 
 std::array<Range, 4> texel_range(const Texture& texture, const Sampler& s, const TextureSample& at,
                                  const Profile& profile, LevelHulls* hulls) {
   const Sampling& rules = profile.sampling;
+  if (rules.anisotropy > 1) return anisotropic_range(texture, s, at, profile, hulls);
   const Interval lod = lod_range(texture, s, at, rules);
   const bool srgb = texture.format == TextureFormat::srgb8_a8;
   int steps = 0;

@@ -57,6 +57,14 @@ TEST_CASE("Maps that are read wrongly are named") {
   check_all({"a normal map's green turned", "a normal map decoded as sRGB", "one object's colour"});
 }
 
+TEST_CASE("An anisotropic filter that is left on is named, not as a bias of levels") {
+  check_all({"an anisotropic filter left on"});
+}
+
+TEST_CASE("Tiles whose lists of lights are full are named with their size and how many lights they hold") {
+  check_all({"tiles whose lists are full"});
+}
+
 TEST_CASE("Glass that is missing, out of order or blended wrongly is named") {
   check_all({"glass missing", "glass in the opposite order", "glass not multiplied by its alpha", "glass added"});
 }

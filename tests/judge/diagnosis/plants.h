@@ -8,5 +8,6 @@ const std::vector<Plant>& plants_of_planes();
 const std::vector<Plant>& plants_of_scenes();
 const std::vector<Plant>& plants_of_lights();
 const std::vector<Plant>& plants_of_materials();
+const std::vector<Plant>& plants_of_filters();
 
 }  // namespace trueshade::testing

@@ -234,6 +234,8 @@ std::vector<Plant> made() {
     return true;
   });
   slip("tiles with their neighbours' lists", {"tile-lists-16"}, slipped(LightSlip::shifted_tiles), 2);
+  slip("tiles whose lists are full", {"tile-count-16", "tile-count-8", "light-count"},
+       slipped(LightSlip::full_lists, {4, 8, 2}), 3);
   slip("a stale tile", {"tile-stale-16"}, slipped(LightSlip::stale_tile), 2);
   slip(
       "estimated roots", {"root-newton", "root-12-bits"},

@@ -1,4 +1,5 @@
-// Judges every fault that the diagnosis was not made of, and writes the rows of docs/data/unseen_faults.md.
+// Judges every fault that the diagnosis was not made of, and writes the rows of docs/data/unseen_faults.md: those of
+// the first list, and those of the second.
 //
 //   unseen_rows [PART-OF-A-NAME]
 //
@@ -34,14 +35,11 @@ void add(Counts& counts, const Trial& trial) {
   counts.convicted += trial.convicted, counts.accepted += trial.accepted, counts.misnamed += trial.misnamed();
 }
 
-}  // namespace
-
-int main(int count, char** words) {
-  std::map<std::string_view, Subject> subjects;
-  for (const char* name : {"city", "cornell", "lecture", "atrium", "box"}) subjects[name] = subject_named(name);
+void judge(const std::vector<UnseenFault>& faults, const std::map<std::string_view, Subject>& subjects,
+           std::string_view part) {
   Counts named, unnamed;
-  for (const UnseenFault& fault : unseen_faults()) {
-    if (count > 1 && fault.name.find(words[1]) == std::string_view::npos) continue;
+  for (const UnseenFault& fault : faults) {
+    if (fault.name.find(part) == std::string_view::npos) continue;
     std::istringstream scenes{std::string(fault.subjects)};
     for (std::string scene; scenes >> scene;) {
       const Subject& subject = subjects.at(scene);
@@ -53,4 +51,14 @@ int main(int count, char** words) {
   for (const auto& [text, c] : {std::pair{"a name is right", named}, std::pair{"no name is wholly right", unnamed}})
     std::printf("%s: %d change 100 pixels, %d convicted, %d accepted, %d wrong with more than half\n", text, c.shown,
                 c.convicted, c.accepted, c.misnamed);
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  std::map<std::string_view, Subject> subjects;
+  for (const char* name : {"city", "cornell", "lecture", "atrium", "box"}) subjects[name] = subject_named(name);
+  const std::string_view part = count > 1 ? words[1] : "";
+  judge(unseen_faults(), subjects, part);
+  judge(unseen_faults_of_the_second_list(), subjects, part);
 }

@@ -86,8 +86,11 @@ Trial tried(const UnseenFault& fault, const Subject& s) {
   if (!trial.convicted) return trial;
   const auto findings = oracle::diagnose(s.scene, s.pipeline, profile, capture, verdict.stages);
   const bool named = !findings.empty() && !findings[0].partial;
-  if (named) trial.first = findings[0].name, trial.explained = findings[0].explained;
   trial.accepted = is_accepted(fault.accepted, named ? findings[0].name : "-");
+  if (named) trial.first = findings[0].name, trial.explained = findings[0].explained;
+  for (size_t i = 1; named && i < findings.size() && findings[i].tied; ++i)
+    trial.first += " or " + findings[i].name,
+        trial.accepted = trial.accepted || is_accepted(fault.accepted, findings[i].name);
   return trial;
 }
 

@@ -166,7 +166,8 @@ Image slipped_picture(const Scene& scene, const Pipeline& pipeline, const oracle
   const bool loop = pipeline.strategy == Strategy::deferred_loop;
   constexpr int kSide = 16;
   const int across = (ids.width + kSide - 1) / kSide, down = (ids.height + kSide - 1) / kSide;
-  const auto lists = slip == LightSlip::shifted_tiles ? tile_lists(scene, c, kSide) : std::vector<std::vector<bool>>{};
+  const bool tiled = slip == LightSlip::shifted_tiles || slip == LightSlip::full_lists;
+  const auto lists = tiled ? tile_lists(scene, c, kSide) : std::vector<std::vector<bool>>{};
   const auto at = [](const Image& i, int x, int y) {
     return V{float(i.value(x, y, 0)), float(i.value(x, y, 1)), float(i.value(x, y, 2))};
   };
@@ -184,11 +185,13 @@ Image slipped_picture(const Scene& scene, const Pipeline& pipeline, const oracle
       Texel t;
       for (int k = 0; k < 4; ++k) t.v[size_t(k)] = target.stored(k < 3 ? sum[k] : alpha, x, y);
       int reached = 0;
-      const int tile = y / kSide * across + std::min(x / kSide + 1, across - 1);
+      const int beside = slip == LightSlip::shifted_tiles ? 1 : 0;
+      const int tile = y / kSide * across + std::min(x / kSide + beside, across - 1);
       const bool stale = x / kSide == across / 2 && y / kSide == down / 2;
       for (size_t i = 0; i < scene.lights.size(); ++i) {
         const Light& l = scene.lights[i];
         if (!lists.empty() && !lists[size_t(tile)][i]) continue;
+        if (slip == LightSlip::full_lists && ++reached > amount) break;
         if (slip == LightSlip::stale_tile && stale && i % 2 == 1) continue;
         const V offset = l.position - p;
         if (slip == LightSlip::most_at_pixel && dot3(offset, offset) < l.range * l.range && ++reached > amount)

@@ -27,6 +27,7 @@ enum class LightSlip {
   shifted_tiles,        ///< lists of 16x16 tiles are those of the tiles to their right
   stale_tile,           ///< one tile of 16x16 pixels is lit by none of the later lights
   most_at_pixel,        ///< a list that holds so many
+  full_lists,           ///< lists of 16x16 tiles that hold so many
   two_sided,            ///< |N.L|
 };
 
