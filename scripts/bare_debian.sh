@@ -1,4 +1,4 @@
-# Sourced by packages.sh and debian.sh: a Debian with nothing but its base system, in a folder.
+# Sourced by packages.sh, debian.sh and aarch64.sh: a Debian with nothing but its base system, in a folder.
 
 # The names that Debian gives its releases.
 declare -A debian_suites=([12]=bookworm [13]=trixie)
@@ -36,4 +36,26 @@ make_bare_debian() {
 inside() {
   DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 unshare --mount bash -c '
     mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" && exec chroot "$0" /bin/bash -euc "$1"' "$root" "$1"
+}
+
+# open_bare_debian SUITE: sets $root to a bare Debian, of the folder TRUESHADE_DEBIAN, which stays, or to one that goes with
+# the script.
+open_bare_debian() {
+  if [[ -n ${TRUESHADE_DEBIAN:-} ]]; then
+    root=$TRUESHADE_DEBIAN
+  else
+    work=$(mktemp -d)
+    trap 'rm -rf --one-file-system "$work"' EXIT
+    root=$work/root
+  fi
+  [[ -e $root/etc/debian_version ]] && return
+  local why
+  why=$(make_bare_debian "$1" "$root")
+  [[ -z $why ]] || die "no bare Debian ($1) can be made here: $why"
+}
+
+# copy_tree: this checkout, without what git ignores, into /root/trueshade there.
+copy_tree() {
+  mkdir -p "$root/root/trueshade"
+  git ls-files -z --cached --others --exclude-standard | tar --null --files-from=- -cf - | tar -C "$root/root/trueshade" -xf -
 }

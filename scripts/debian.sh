@@ -11,20 +11,8 @@ mode=${2:-full}
 [[ -n ${debian_suites[$release]:-} ]] || die "./check debian: '$release' is no release that is tried (one of: ${!debian_suites[*]})"
 golden=$(sed -nE 's/.*"builtin:city", "many-lights", 800, 800, "([0-9a-f]{64})".*/\1/p' tests/golden/frames.h)
 
-if [[ -n ${TRUESHADE_DEBIAN:-} ]]; then
-  root=$TRUESHADE_DEBIAN
-else
-  work=$(mktemp -d)
-  trap 'rm -rf --one-file-system "$work"' EXIT
-  root=$work/root
-fi
-if [[ ! -e $root/etc/debian_version ]]; then
-  why=$(make_bare_debian "${debian_suites[$release]}" "$root")
-  [[ -z $why ]] || die "no bare Debian $release can be made here: $why"
-fi
-
-mkdir -p "$root/root/trueshade"
-git ls-files -z --cached --others --exclude-standard | tar --null --files-from=- -cf - | tar -C "$root/root/trueshade" -xf -
+open_bare_debian "${debian_suites[$release]}"
+copy_tree
 here='cd /root/trueshade'
 
 # timed WHAT COMMANDS: runs them there, and says how long they took.
