@@ -20,6 +20,11 @@ foreach(target IN LISTS TRUESHADE_SIMD)
 endforeach()
 if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(trueshade_kernel_targets scalar)
+  # Highway marks its NEON functions as +crypto, and g++ inlines those only where the whole file is compiled for it. No
+  # kernel uses an instruction for cryptography, so CPUs without them run the kernels too.
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
+    list(APPEND trueshade_kernel_options -march=armv8-a+crypto)
+  endif()
 elseif(TRUESHADE_SIMD STREQUAL "native")
   set(flags "")
   if(EXISTS /proc/cpuinfo)

@@ -1,12 +1,13 @@
 #!/bin/bash
 # scripts/packages.sh, which is ./check packages: makes the Debian packages under build/packages (docs/packages.md), and
-# tries them in a bare Debian 12: debootstrap makes one from where this machine's apt has its packages. Where that cannot
-# be done, says so, and tries the packages' content where dpkg-deb unpacks it. Last lines: sizes, times, the verdict.
+# tries them in a bare Debian of this machine's release: debootstrap makes one from where this machine's apt has its
+# packages. Where that cannot be done, says so, and tries the packages' content where dpkg-deb unpacks it. Last lines: sizes, times, the verdict.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source scripts/setup.sh
+source scripts/bare_debian.sh
 out=build/packages
-suite=bookworm
+suite=$(suite_of_this_machine)
 golden=$(sed -nE 's/.*"builtin:city", "many-lights", 800, 800, "([0-9a-f]{64})".*/\1/p' tests/golden/frames.h)
 
 install_packages command python3 libopenmpi-dev pybind11-dev python3-dev python3-numpy libsdl2-dev libimgui-dev dpkg-dev binutils gzip xz-utils
@@ -41,16 +42,8 @@ fi
 
 work=$(mktemp -d)
 trap 'rm -rf --one-file-system "$work"' EXIT
-# The address of Debian's packages, as apt of this machine has it.
-mirror=$(apt-get indextargets --format '$(RELEASE)|$(COMPONENT)|$(REPO_URI)' "Created-By: Packages" 2>/dev/null |
-  sed -n "s/^$suite|main|//p" | head -n 1)
-why=
-if ((EUID != 0)); then why="that needs root"
-elif ! command -v debootstrap >/dev/null; then why="debootstrap is not installed"
-elif [[ -z $mirror ]]; then why="apt of this machine knows no $suite"
-elif ! debootstrap --variant=minbase "$suite" "$work/root" "$mirror" >"$work/log" 2>&1; then
-  why="debootstrap fails: $(tail -n 1 "$work/log")"
-fi
+root=$work/root
+why=$(make_bare_debian "$suite" "$root")
 if [[ -n $why ]]; then
   say "no bare Debian can be made here ($why); trying what dpkg-deb unpacks"
   for package in "$out"/*.deb; do dpkg-deb -x "$package" "$work/root"; done
@@ -61,19 +54,8 @@ if [[ -n $why ]]; then
   exit 0
 fi
 
-# The lists of packages, keys and ways to them are those of this machine; nothing else is.
-root=$work/root
-cp -L /etc/resolv.conf /etc/hosts "$root/etc/" 2>/dev/null || true
-rm -f "$root/etc/apt/sources.list"
-cp -r /etc/apt/sources.list* /etc/apt/apt.conf.d /etc/apt/keyrings /etc/apt/trusted.gpg.d "$root/etc/apt/" 2>/dev/null || true
-cp -r /usr/share/keyrings "$root/usr/share/" 2>/dev/null || true
 cp "$out"/*.deb "$root/root/"
 cp -r tests/consumer "$root/root/"
-# inside COMMANDS: runs them there, with /proc, which ends with them.
-inside() {
-  DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 unshare --mount bash -c \
-    'mount -t proc proc "$0/proc" && exec chroot "$0" /bin/bash -euc "$1"' "$root" "$1"
-}
 quietly "apt-get update in the bare Debian" inside 'apt-get -qq update'
 
 SECONDS=0

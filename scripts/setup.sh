@@ -9,7 +9,8 @@ die() {
   exit 1
 }
 
-# quietly WHAT COMMAND...: runs it, and shows what it said if it fails.
+# quietly WHAT COMMAND...: runs it, and shows what it said if it fails. Lines `left out: ...`, by which cmake says what it
+# does not build although its packages are asked for, are shown in any case.
 quietly() {
   local what=$1 log status=0
   shift
@@ -20,6 +21,7 @@ quietly() {
     rm -f "$log"
     die "$what failed (its output is above)"
   fi
+  sed -n 's/^left out: /trueshade: &/p' "$log"
   rm -f "$log"
 }
 

@@ -316,7 +316,7 @@ TEST_CASE("a file that compresses worse than predicted is refused while it is ma
       FAIL("78 MiB of noise fit into 40");
     } catch (const Error& error) {
       CHECK(error.kind() == ErrorKind::limit);
-      CHECK_THAT(error.what(), Catch::Matchers::StartsWith(path + ": the file needs "));
+      CHECK_THAT(error.what(), Catch::StartsWith(path + ": the file needs "));
     }
     CHECK(resident_memory() < memory_cap() + (uint64_t(64) << 20));
     set_memory_cap(0);

@@ -2,7 +2,6 @@
 // tells.
 #include "tests/judge/mutants/blend_mutants.h"
 
-#include <catch2/catch.hpp>
 #include <cstdio>
 #include <map>
 #include <set>
@@ -12,6 +11,7 @@
 #include "judge/stages/judge.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/pipeline/presets.h"
+#include "tests/catch.hpp"
 #include "tests/judge/blend_mutants.h"
 #include "tests/judge/captured.h"
 

@@ -1,14 +1,14 @@
 // The legal sets of one blend against a scalar twin of the blenders they must hold; and how many fragments a light's
 // geometry may have against exact integers.
-#include <catch2/catch.hpp>
 #include <cmath>
 
-#include "oracle/blend.h"
 #include "judge/legal/blend_ways.h"
 #include "judge/legal/light_cover.h"
+#include "oracle/blend.h"
 #include "oracle/matrices.h"
 #include "scenes/builtin/pcg32.h"
 #include "scenes/pipeline/presets.h"
+#include "tests/catch.hpp"
 
 using namespace trueshade;
 using namespace trueshade::oracle;

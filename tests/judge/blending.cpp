@@ -1,12 +1,12 @@
 // Strategies that draw light by light: our own frames and a real driver's, every draw judged from the target before it.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cstdio>
 
 #include "core/error.h"
 #include "judge/stages/validate.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/pipeline/presets.h"
+#include "tests/catch.hpp"
 #include "tests/judge/captured.h"
 #include "tests/judge/random_scene.h"
 

@@ -1,7 +1,6 @@
 // Wrong renderers on a real driver: what llvmpipe draws of a mutant's input, held to its own profile and to any GPU's.
-#include <catch2/catch.hpp>
-
 #include "gl/driver/renderer.h"
+#include "tests/catch.hpp"
 #include "tests/judge/blend_mutants.h"
 #include "tests/judge/captured.h"
 #include "tests/judge/drivers.h"

@@ -19,4 +19,4 @@ std::string error_of(trueshade::ErrorKind kind, const Body& body) {
 }
 
 /// Checks that a text starts as it should; the whole text is shown where it does not.
-#define CHECK_STARTS_WITH(text, start) CHECK_THAT(text, Catch::Matchers::StartsWith(start))
+#define CHECK_STARTS_WITH(text, start) CHECK_THAT(text, Catch::StartsWith(start))

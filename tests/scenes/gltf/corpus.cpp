@@ -80,7 +80,7 @@ TEST_CASE("the glTF-Validator's corpus ends cleanly: valid files load, broken on
     } catch (const Error& error) {
       refusal = error.what();
       CHECK((error.kind() == ErrorKind::bad_input || error.kind() == ErrorKind::io));
-      CHECK_THAT(refusal, Catch::Matchers::StartsWith(corpus + "/" + entry.file + ": "));
+      CHECK_THAT(refusal, Catch::StartsWith(corpus + "/" + entry.file + ": "));
     }
     INFO(entry.file << " [" << entry.codes << "] " << refusal);
     const auto exception = std::find_if(std::begin(kRefused), std::end(kRefused),

@@ -170,9 +170,9 @@ TEST_CASE("MTL: a polygon that is refused is named before pictures that are") {
   files.decode = [](std::span<const uint8_t>, const std::string& where, uint64_t) -> Image {
     throw Error(ErrorKind::bad_input, where, "it is broken", "a whole one");
   };
-  CHECK_THAT(error_of(ErrorKind::bad_input, [&] { files.read(); }), Catch::Matchers::Contains("0.png: it is broken"));
+  CHECK_THAT(error_of(ErrorKind::bad_input, [&] { files.read(); }), Catch::Contains("0.png: it is broken"));
   files.limits.geometry_bytes = 1;
-  CHECK_THAT(error_of(ErrorKind::limit, [&] { files.read(); }), Catch::Matchers::Contains("geometry"));
+  CHECK_THAT(error_of(ErrorKind::limit, [&] { files.read(); }), Catch::Contains("geometry"));
 }
 
 TEST_CASE("MTL: pictures and their smaller levels are held to the limit, narrow ones too") {
@@ -184,7 +184,7 @@ TEST_CASE("MTL: pictures and their smaller levels are held to the limit, narrow 
   const std::string message = error_of(ErrorKind::limit, [&] { files.read(); });
   CHECK_STARTS_WITH(message,
                     "a.mtl: line 12: 3.png: with this picture and its smaller levels the pictures are over the limit");
-  CHECK_THAT(message, Catch::Matchers::Contains("--max-texture-memory"));
+  CHECK_THAT(message, Catch::Contains("--max-texture-memory"));
 }
 
 TEST_CASE("MTL: map_d gives the colours their alpha, and masks") {
