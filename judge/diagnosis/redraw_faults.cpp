@@ -86,11 +86,21 @@ bool flat_normals(Scene&, Pipeline& p, double) {
       p.gbuffer.normal.interpolation == Interpolation::flat ? Interpolation::smooth : Interpolation::flat;
   return true;
 }
-/// Both shaders where one is due is `normal-unit`, and says more.
-bool make_unit_at(Scene&, Pipeline& p, double shader) {
+float inner(const glm::vec3& a, const glm::vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+/// A rotation, and one scale: normals keep one length.
+bool keeps_angles(const glm::mat4x3& m) {
+  const float size = inner(m[0], m[0]);
+  const auto near = [size](float a, float b) { return std::fabs(a - b) <= 1e-5f * size; };
+  return near(inner(m[1], m[1]), size) && near(inner(m[2], m[2]), size) && near(inner(m[0], m[1]), 0) &&
+         near(inner(m[0], m[2]), 0) && near(inner(m[1], m[2]), 0);
+}
+/// Normals of one length that the fragment shader makes unit are `normal-unit`, which says more.
+bool make_unit_at(Scene& s, Pipeline& p, double shader) {
   const UnitNormals made = p.gbuffer.unit_normals, asked = UnitNormals(int(shader));
-  if (made == asked || (made == UnitNormals::vertex && asked == UnitNormals::both)) return false;
-  p.gbuffer.unit_normals = UnitNormals(int(shader));
+  const bool any_stretched = std::any_of(s.instances.begin(), s.instances.end(),
+                                         [](const Instance& i) { return !keeps_angles(i.world_from_object); });
+  if (made == asked || (made == UnitNormals::vertex && (asked == UnitNormals::both || !any_stretched))) return false;
+  p.gbuffer.unit_normals = asked;
   return true;
 }
 bool provoke(Scene&, Pipeline& p, double) {
@@ -213,12 +223,7 @@ bool normals_by_matrix(Scene& s, Pipeline&, double) {
   for (Instance& instance : s.instances) {
     const glm::mat4x3& m = instance.world_from_object;
     if (s.meshes[instance.mesh].normal[0].empty()) continue;
-    const auto inner = [](const glm::vec3& a, const glm::vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
-    const float size = inner(m[0], m[0]);
-    const auto near = [size](float a, float b) { return std::fabs(a - b) <= 1e-5f * size; };
-    if (near(inner(m[1], m[1]), size) && near(inner(m[2], m[2]), size) && near(inner(m[0], m[1]), 0) &&
-        near(inner(m[0], m[2]), 0) && near(inner(m[1], m[2]), 0))
-      continue;  // a rotation, and one scale
+    if (keeps_angles(m)) continue;
     any = true;
     Mesh mesh = s.meshes[instance.mesh];
     for (size_t i = 0; i < mesh.vertex_count(); ++i) {

@@ -141,6 +141,8 @@ void call_pipeline(Bytes& out) {
   out.put(blends_lights(p.strategy));
   out.put(is_forward(p.strategy));
   out.put(surface_planes(p).half_round);
+  out.put(made_unit_at_vertex(UnitNormals::both));
+  out.put(made_unit_at_fragment(UnitNormals::both));
   out.put_error([] { pipeline_from_json(R"({"width": 0.1})", "text", Pipeline{}); });
   out.put_error([] { pipeline_from_json(R"({"post": {"key": 1e400}})", "text", Pipeline{}); });
 }
@@ -246,7 +248,9 @@ constexpr Row kRows[] = {
     {"scenes/pipeline/light_model.h", "reads_specular_plane takes_gloss shows_unlit maps_metals", call_light_model},
     {"scenes/pipeline/presets.h", "presets preset_pipeline default_pipeline", call_light_model},
     {"scenes/pipeline/pipeline.h",
-     "pipeline_from_json pipeline_json validate name_of blends_lights is_forward surface_planes", call_pipeline},
+     "pipeline_from_json pipeline_json validate name_of blends_lights is_forward surface_planes "
+     "made_unit_at_vertex made_unit_at_fragment",
+     call_pipeline},
     {"scenes/pipeline/pipeline.h", "validate", call_refusals},
     {"scenes/pipeline/pipeline.h", "whole drawn_region drawn_pixels validate_region validate_drawn_size", call_regions},
     {"scenes/pipeline/post_chain.h", "active", call_post_chain},
