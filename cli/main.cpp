@@ -10,6 +10,7 @@
 #include <new>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <variant>
@@ -78,6 +79,11 @@ int say_out_of_memory() {
   return say_error("memory: there is not enough (render a smaller image or scene)", int(ErrorKind::out_of_memory));
 }
 
+int say_no_more_threads() {
+  return say_error("threads: the system starts no more (raise the limit on processes, ulimit -u, or end others)",
+                   int(ErrorKind::out_of_memory));
+}
+
 /// Says what is wrong, and gives the exit code: the only place that knows either.
 int exit_code_of(const std::exception_ptr& fault) {
   try {
@@ -90,6 +96,9 @@ int exit_code_of(const std::exception_ptr& fault) {
     return say_out_of_memory();
   } catch (const std::length_error&) {  // more elements than a container can ever have
     return say_out_of_memory();
+  } catch (const std::system_error& error) {
+    return error.code() == std::errc::resource_unavailable_try_again ? say_no_more_threads()
+                                                                     : say_our_fault(error.what());
   } catch (const std::exception& error) {
     return say_our_fault(error.what());
   } catch (...) {

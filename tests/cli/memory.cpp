@@ -452,39 +452,5 @@ TEST_CASE("whichever allocation is the last, and none succeeds after it, the com
 #endif
 }
 
-TEST_CASE("threads that the system does not start are done without, and a library that needs them is named") {
-  if (geteuid() != 0 ||
-      std::system("setpriv --reuid 54321 --clear-groups '" TRUESHADE_COMMAND "' list >/dev/null 2>&1") != 0) {
-    WARN("SKIPPED: holding another user to a number of processes needs root and setpriv");
-    return;
-  }
-  const ScratchFolder folder;
-  std::filesystem::permissions(folder.path(""), std::filesystem::perms::all);
-  REQUIRE(run_command({"render", "builtin:cornell", "--size", "32x32", "-o", "x.exr"}, folder.path("")).exit_code == 0);
-  const auto run = [&](const std::string& arguments, int processes) {
-    const std::string line =
-        "cd '" + folder.path("") + "' && setpriv --reuid 54321 --clear-groups bash -c 'ulimit -u " +
-        std::to_string(processes) + "; exec \"" TRUESHADE_COMMAND "\" " + arguments + "' >out 2>err";
-    return WEXITSTATUS(std::system(line.c_str()));
-  };
-  const std::string hash = run_command({"render", "builtin:cornell", "--size", "300x300", "--hash"}).out;
-  std::string line;
-  for (int processes = 1; processes <= 9; ++processes) {
-    CAPTURE(processes);
-    CHECK(run("render builtin:cornell --size 300x300 --hash --threads 8", processes) == 0);
-    std::ifstream out(folder.path("out"));
-    REQUIRE(std::getline(out, line));
-    CHECK(hash == line + "\n");
-  }
-  for (int processes = 1; processes <= 4; ++processes) {  // the library's initializers need more
-    CAPTURE(processes);
-    CHECK(run("info x.exr", processes) == 6);
-    std::ifstream err(folder.path("err"));
-    REQUIRE(std::getline(err, line));
-    CHECK(line.starts_with("trueshade: error: threads: "));
-    CHECK_FALSE(std::getline(err, line));
-  }
-}
-
 }  // namespace
 }  // namespace trueshade
