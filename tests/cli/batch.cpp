@@ -279,6 +279,17 @@ TEST_CASE("A file of jobs that is wrong is refused in one line that names the pl
   refused(list(circle), "jobs wait for each other: a after b after c after a");
 }
 
+TEST_CASE("The journal of a batch is not opened through a link") {
+  const Batch batch;
+  batch.write({job("a", {"info", "builtin:red"})});
+  batch.folder.write("elsewhere/mine", "mine");
+  std::filesystem::create_symlink("elsewhere/mine", batch.folder.path("jobs.json.state"));
+  check_refused(batch.run(), 5, "jobs.json.state: cannot open it");
+  std::ifstream file(batch.folder.path("elsewhere/mine"));
+  std::string text;
+  CHECK((std::getline(file, text) && text == "mine"));
+}
+
 TEST_CASE("JUnit and the page say what the table says, and a full disk takes no result") {
   const Batch batch;
   batch.write({job("draw <a>", drawing("builtin:cornell", "a.png")), job("gone", {"info", "gone&.json"}),

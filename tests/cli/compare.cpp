@@ -433,6 +433,30 @@ TEST_CASE("compare --accept makes test pictures references, byte by byte, and th
   CHECK(run_compare(folder, {"ref", "test"}).exit_code == 0);
 }
 
+TEST_CASE("compare --accept writes through no link, neither of a picture nor of a folder") {
+  const ScratchFolder folder;
+  write_folders(folder);
+  const std::string test = content_of(folder.path("test/b/differs.exr"));
+  folder.write("elsewhere/differs.exr", "mine");
+  folder.write("elsewhere/kept.exr", "mine");
+  std::filesystem::remove_all(folder.path("ref/b"));
+  std::filesystem::create_directory_symlink("../elsewhere", folder.path("ref/b"));
+  std::filesystem::create_symlink("elsewhere/kept.exr", folder.path("link.exr"));
+  const Outcome folders = run_compare(folder, {"ref", "test", "--accept"});
+  CHECK(folders.exit_code == 3);
+  says(folders, "no picture is accepted through a link");
+  CHECK(content_of(folder.path("elsewhere/differs.exr")) == "mine");
+  CHECK(content_of(folder.path("ref/extra.exr")) == content_of(folder.path("test/extra.exr")));
+  std::filesystem::remove(folder.path("elsewhere/kept.exr"));
+  for (const char* made : {"link.exr", "ref/link.exr"}) {
+    std::filesystem::remove(folder.path(made));
+    std::filesystem::create_symlink(folder.path("elsewhere/kept.exr"), folder.path(made));
+    check_refused(run_compare(folder, {made, "test/extra.exr", "--accept"}), 3,
+                  "no picture is accepted through a link");
+    CHECK_FALSE(std::filesystem::exists(folder.path("elsewhere/kept.exr")));
+  }
+}
+
 TEST_CASE("compare --accept takes no picture that is not finite or damaged, replaces a damaged reference, and makes a first one") {
   ScratchFolder folder;
   with_pair(folder, [](EnginePlane& plane) { plane.at(2, 3, 1) = kNan; });
