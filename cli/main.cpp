@@ -1,3 +1,4 @@
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -23,6 +24,7 @@
 #include "core/error.h"
 #include "core/fp_env.h"
 #include "core/memory_cap.h"
+#include "core/pixel_cap.h"
 #include "core/printable_text.h"
 #include "farm/process_ranks.h"
 
@@ -136,6 +138,18 @@ void end_at_lost_bytes(int) {
                        int(ErrorKind::io)));
 }
 
+/// As where SIGTERM ends the process: what was to be written is not there, or is the file that was there before, and a
+/// large picture can be gone on with.
+void end_at_timeout(int) {
+  std::_Exit(say_error("--timeout: the time is over (ask for less, or give more seconds)", int(ErrorKind::limit)));
+}
+
+void end_after(uint64_t seconds) {
+  std::signal(SIGALRM, end_at_timeout);
+  const itimerval once{{}, {time_t(std::min<uint64_t>(seconds, UINT32_MAX)), 0}};
+  setitimer(ITIMER_REAL, &once, nullptr);
+}
+
 void set_up(const Command& command) {
   std::visit(
       [](const auto& options) {
@@ -143,6 +157,8 @@ void set_up(const Command& command) {
           if (options.quiet) be_quiet();
         if constexpr (requires { options.limits; }) {
           if (options.limits.memory != 0) set_memory_cap(options.limits.memory);
+          if (options.limits.pixels != 0) set_pixel_cap(options.limits.pixels);
+          if (options.limits.seconds != 0) end_after(options.limits.seconds);
           if (options.limits.cache) std::signal(SIGBUS, end_at_lost_bytes);
         }
       },

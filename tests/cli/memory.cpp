@@ -241,7 +241,7 @@ TEST_CASE("an EXR whose lengths are beyond its bytes is refused before OpenEXR s
   refused(start + "note" + '\0' + "string" + '\0' + little(0x7fffffff) + "short", 3, "longer than the file");
   refused(start + attribute("preview", "preview", little(0x4000) + little(0x8000)), 3, "preview");
   refused(start + attribute("ids", "idmanifest", little(0x7fffffff) + "x"), 3, "manifest");
-  refused(start + channels + compression + attribute("dataWindow", "box2i", window(0x7fffffff)) + '\0', 4, "65536");
+  refused(start + channels + compression + attribute("dataWindow", "box2i", window(0x7fffffff)) + '\0', 4, "1048576");
   refused(start + channels + compression + attribute("dataWindow", "box2i", window(60000)) + '\0', 3,
           "the EXR ends before its pixels do");
   refused(start + channels + '\0', 3, "no channels, window or compression");
