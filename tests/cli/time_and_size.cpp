@@ -18,7 +18,7 @@ std::string content_of(const std::string& path) {
 
 }  // namespace
 
-TEST_CASE("--timeout ends a run within a second, in one line, and every file is whole") {
+TEST_CASE("A run with --timeout ends within a second, in one line, and every file is whole") {
   const ScratchFolder folder;
   const auto start = std::chrono::steady_clock::now();
   const Outcome outcome = run_command({"render", "builtin:city", "--frames", "0-99999", "--size", "96x64", "--threads",
@@ -51,7 +51,7 @@ TEST_CASE("A picture that --timeout has ended goes on with --resume") {
   CHECK(folder.entries() == std::vector<std::string>{"x.png"});
 }
 
-TEST_CASE("--max-pixels bounds what is drawn and what is read") {
+TEST_CASE("The option --max-pixels bounds what is drawn and what is read") {
   const ScratchFolder folder;
   const auto run = [&](std::vector<std::string> arguments, const char* most) {
     arguments.insert(arguments.end(), {"--max-pixels", most});
