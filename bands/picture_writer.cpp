@@ -76,6 +76,9 @@ std::string PictureWriter::take_over(const ProgressNote& note, Resume resume) {
   bool whole = (has_plane_hashes || note.planes.empty()) && hash.resume(note.hash) && set_counts(note.counts, counts);
   for (size_t i = 0; whole && i < plane_hashes.size(); ++i) whole = plane_hashes[i].resume(note.planes[i]);
   if (!whole) return kTorn;
+  for (size_t i = 0; i < note.files.size(); ++i)
+    if (!part_is_sound(picture_.files[i], picture_.streamed(picture_.files[i]), note.files[i]))
+      return part_name(picture_.files[i]) + " is not what the earlier run has left";
   hash_ = hash, plane_hashes_ = std::move(plane_hashes), counts_ = std::move(counts);
   return {};
 }

@@ -7,7 +7,7 @@
 namespace trueshade {
 namespace {
 
-constexpr const char* kFirstLine = "trueshade progress 1";
+constexpr const char* kFirstLine = "trueshade progress 2";
 
 std::string checksum_of(const std::string& text) {
   Sha256 hash;
@@ -23,7 +23,9 @@ std::string text_of(const ProgressNote& note) {
       << note.planes.size();
   for (const std::string& plane : note.planes) out << ' ' << plane;
   out << "\nfiles " << note.files.size();
-  for (const StreamedState& file : note.files) out << ' ' << file.end << ' ' << file.pieces << ' ' << file.checksum;
+  for (const StreamedState& file : note.files)
+    out << ' ' << file.end << ' ' << file.pieces << ' ' << file.checksum << ' ' << file.pieces_crc << ' '
+        << file.table_crc;
   out << "\ncounts " << note.counts.size();
   for (const uint64_t count : note.counts) out << ' ' << count;
   out << '\n';
@@ -46,7 +48,7 @@ std::optional<ProgressNote> note_of(const std::string& text) {
   in >> word >> size;
   for (size_t i = 0; in && i < size; ++i) {
     StreamedState& file = note.files.emplace_back();
-    in >> file.end >> file.pieces >> file.checksum;
+    in >> file.end >> file.pieces >> file.checksum >> file.pieces_crc >> file.table_crc;
   }
   in >> word >> size;
   for (size_t i = 0; in && i < size; ++i) in >> note.counts.emplace_back();

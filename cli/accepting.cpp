@@ -12,13 +12,32 @@
 
 namespace trueshade {
 
-void accept_picture(const std::string& test, const std::string& reference) {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_leads_nowhere_else(const std::string& reference, const std::string& within) {
+  std::error_code unknown;
+  const fs::path parent = fs::path(reference).parent_path(),
+                 way = within.empty() ? fs::path()
+                                      : fs::weakly_canonical(parent, unknown)
+                                            .lexically_relative(fs::weakly_canonical(within, unknown));
+  const bool leads_out = !within.empty() && (way.empty() || *way.begin() == "..");
+  if (leads_out || fs::is_symlink(fs::symlink_status(reference, unknown)))
+    throw Error(ErrorKind::bad_input, reference, "a link leads elsewhere, and no picture is accepted through a link",
+                "replace the link by a file or a folder");
+}
+
+}  // namespace
+
+void accept_picture(const std::string& test, const std::string& reference, const std::string& within) {
+  check_leads_nowhere_else(reference, within);
   std::ifstream file(test, std::ios::binary);
   const std::vector<char> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   if (!file) throw Error(ErrorKind::io, test, "cannot read it again", "try again");
-  const std::filesystem::path folder = std::filesystem::path(reference).parent_path();
+  const fs::path folder = fs::path(reference).parent_path();
   std::error_code failed;
-  if (!folder.empty()) std::filesystem::create_directories(folder, failed);
+  if (!folder.empty()) fs::create_directories(folder, failed);
   if (failed) throw Error(ErrorKind::io, folder.string(), "cannot make it: " + failed.message(), "check the rights");
   write_file(reference, std::span(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()));
 }

@@ -13,7 +13,9 @@
 #include "core/error.h"
 #include "core/file_ending.h"
 #include "core/image_files/image_io.h"
+#include "core/image_files/picture_file.h"
 #include "core/memory_cap.h"
+#include "core/pixel_cap.h"
 #include "core/printable_text.h"
 #include "scenes/pipeline/fit_lights.h"
 #include "scenes/scene.h"
@@ -28,12 +30,13 @@ std::string info_row(const std::string& name, const std::string& value) {
 
 std::string about_image(const std::string& path, uint64_t most_expansion) {
   const ImageFileInfo image = read_image_info(path);
+  require_pixels(image.width, image.height, path);
   std::string text =
       info_row("image", path) + info_row("size", std::to_string(image.width) + 'x' + std::to_string(image.height));
   for (const std::string& channel : image.channels) text += info_row("channel", channel);
   for (const auto& [key, value] : image.metadata) text += info_row(key, value);
   if (!has_ending(path, ".png")) return text;
-  read_planes(path, most_expansion);  // throws for a wrong checksum, damaged or missing texels
+  check_png(path, most_expansion);
   return text + info_row("pixels", "read whole, all checksums right");
 }
 

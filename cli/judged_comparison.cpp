@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <filesystem>
-#include <system_error>
+#include <optional>
 
 #include "cli/capture/captured_planes.h"
 #include "cli/capture/stored_planes.h"
+#include "cli/named_file.h"
 #include "cli/preparation.h"
 #include "cli/shaded_gbuffer.h"
 #include "cli/shell_words.h"
@@ -25,14 +25,6 @@ const std::string* metadata_value(const PictureFile& picture, std::string_view k
   return nullptr;
 }
 
-/// The scene's file as the reference names it; if it is not there, beside the reference.
-std::string found_scene(const std::string& spec, const std::string& reference) {
-  namespace fs = std::filesystem;
-  std::error_code unknown;
-  if (spec.starts_with("builtin:") || fs::exists(spec, unknown)) return spec;
-  return (fs::path(reference).parent_path() / fs::path(spec).filename()).string();
-}
-
 double time_of(const PictureFile& reference) {
   const std::string* const text = metadata_value(reference, "trueshade:time");
   double time = 0.0;
@@ -42,6 +34,20 @@ double time_of(const PictureFile& reference) {
 
 Error not_judged(const std::string& reason) {
   return {ErrorKind::bad_input, "the reference's scene", reason, "--no-judge compares values alone"};
+}
+
+/// The scene that a reference names. No word of a file that is no scene is repeated: whoever made the reference has
+/// chosen the file.
+Scene named_scene(const std::string& name, const std::string& reference, const Limits& limits) {
+  const bool is_built_in = name.starts_with("builtin:");
+  const std::optional<std::string> file = is_built_in ? name : file_named_by(reference, name);
+  if (!file) throw not_judged("there is no " + name + " in the folder where the command runs, nor in its own");
+  try {
+    return scene_of_options(*file, limits);
+  } catch (const Error& error) {
+    if (is_built_in || error.kind() == ErrorKind::limit) throw;
+    throw not_judged(*file + " is no scene that can be drawn (`trueshade info` says why)");
+  }
 }
 
 class SceneJudge {
@@ -82,7 +88,7 @@ class SceneJudge {
                              *const hash = metadata_value(pictures_.reference, "trueshade:sceneHash"),
                              *const pipeline = metadata_value(pictures_.reference, "trueshade:pipeline");
     if (hash == nullptr || pipeline == nullptr) throw not_judged("its hash or its pipeline is not named");
-    scene_ = scene_of_options(found_scene(*spec, pictures_.reference.path), options_.limits);
+    scene_ = named_scene(*spec, pictures_.reference.path, options_.limits);
     if ("sha256:" + scene_hash(scene_) != *hash)
       throw not_judged(scene_.spec + " is another scene today: its hash is not the one that the reference names");
     set_time(scene_, time_of(pictures_.reference));

@@ -12,6 +12,8 @@ using enum LimitOption::Unit;
 
 constexpr LimitOption kOptions[] = {
     {"--max-memory", bytes, &Limits::memory, "Memory of the process; what would need more is refused before it begins"},
+    {"--max-pixels", count, &Limits::pixels, "Pixels of a picture that is drawn or read"},
+    {"--timeout", seconds, &Limits::seconds, "Seconds after which the command ends, and leaves no file torn"},
     {"--max-file", bytes, &Limits::file_bytes, "Bytes of an input file, and of what a .gz file holds"},
     {"--max-json", bytes, &Limits::json_bytes, "Bytes of a scene's JSON text"},
     {"--max-lights", count, &Limits::lights, "Lights of a scene"},
@@ -40,10 +42,15 @@ std::string text_of(uint64_t value, LimitOption::Unit unit) {
 
 std::span<const LimitOption> limit_options() { return kOptions; }
 
+const char* value_name(const LimitOption& option) {
+  return option.unit == bytes ? "SIZE" : option.unit == seconds ? "SECONDS" : "COUNT";
+}
+
 std::string help_of(const LimitOption& option) {
   const uint64_t value = Limits{}.*option.limit;
-  const std::string usual =
-      value == 0 ? "half of the machine's, or of its control group's" : text_of(value, option.unit);
+  const std::string usual = value != 0             ? text_of(value, option.unit)
+                            : option.unit == bytes ? "half of the machine's, or of its control group's"
+                                                   : "any";
   return std::string(option.help) + " (" + usual + ")";
 }
 

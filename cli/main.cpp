@@ -1,3 +1,4 @@
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <new>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <variant>
@@ -22,6 +24,7 @@
 #include "core/error.h"
 #include "core/fp_env.h"
 #include "core/memory_cap.h"
+#include "core/pixel_cap.h"
 #include "core/printable_text.h"
 #include "farm/process_ranks.h"
 
@@ -78,6 +81,11 @@ int say_out_of_memory() {
   return say_error("memory: there is not enough (render a smaller image or scene)", int(ErrorKind::out_of_memory));
 }
 
+int say_no_more_threads() {
+  return say_error("threads: the system starts no more (raise the limit on processes, ulimit -u, or end others)",
+                   int(ErrorKind::out_of_memory));
+}
+
 /// Says what is wrong, and gives the exit code: the only place that knows either.
 int exit_code_of(const std::exception_ptr& fault) {
   try {
@@ -90,6 +98,9 @@ int exit_code_of(const std::exception_ptr& fault) {
     return say_out_of_memory();
   } catch (const std::length_error&) {  // more elements than a container can ever have
     return say_out_of_memory();
+  } catch (const std::system_error& error) {
+    return error.code() == std::errc::resource_unavailable_try_again ? say_no_more_threads()
+                                                                     : say_our_fault(error.what());
   } catch (const std::exception& error) {
     return say_our_fault(error.what());
   } catch (...) {
@@ -127,6 +138,18 @@ void end_at_lost_bytes(int) {
                        int(ErrorKind::io)));
 }
 
+/// As where SIGTERM ends the process: what was to be written is not there, or is the file that was there before, and a
+/// large picture can be gone on with.
+void end_at_timeout(int) {
+  std::_Exit(say_error("--timeout: the time is over (ask for less, or give more seconds)", int(ErrorKind::limit)));
+}
+
+void end_after(uint64_t seconds) {
+  std::signal(SIGALRM, end_at_timeout);
+  const itimerval once{{}, {time_t(std::min<uint64_t>(seconds, UINT32_MAX)), 0}};
+  setitimer(ITIMER_REAL, &once, nullptr);
+}
+
 void set_up(const Command& command) {
   std::visit(
       [](const auto& options) {
@@ -134,6 +157,8 @@ void set_up(const Command& command) {
           if (options.quiet) be_quiet();
         if constexpr (requires { options.limits; }) {
           if (options.limits.memory != 0) set_memory_cap(options.limits.memory);
+          if (options.limits.pixels != 0) set_pixel_cap(options.limits.pixels);
+          if (options.limits.seconds != 0) end_after(options.limits.seconds);
           if (options.limits.cache) std::signal(SIGBUS, end_at_lost_bytes);
         }
       },

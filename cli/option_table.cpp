@@ -54,8 +54,7 @@ void add_limits(CommandTable& table, Limits& limits) {
             "(docs/cache.md)")
       .group = "Limits";
   for (const LimitOption& limit : limit_options()) {
-    const char* value_name = limit.unit == LimitOption::Unit::bytes ? "SIZE" : "COUNT";
-    OptionRow row{.names = limit.name, .value_name = value_name, .help = help_of(limit), .group = "Limits"};
+    OptionRow row{.names = limit.name, .value_name = value_name(limit), .help = help_of(limit), .group = "Limits"};
     row.take = [&limits, &limit](const std::vector<std::string>& given) {
       limits.*limit.limit = limit_from_text(limit, given.back());
     };

@@ -134,7 +134,7 @@ class FolderComparer {
   void accept(const PictureFile& picture, PictureRow& row) const {
     row.not_accepted = why_not_acceptable(picture, options_.rules.allow_not_finite);
     if (!row.not_accepted.empty()) return;
-    accept_picture(test(row), reference(row));
+    accept_picture(test(row), reference(row), options_.reference);
     row.is_accepted = true;
   }
 

@@ -7,6 +7,7 @@
 #include "core/file_ending.h"
 #include "core/image_files/image_io.h"
 #include "core/memory_cap.h"
+#include "core/pixel_cap.h"
 #include "core/standard_input.h"
 #include "scenes/files/content/scene_files.h"
 #include "scenes/json/json_value.h"
@@ -84,6 +85,7 @@ Pipeline pipeline_of(const PipelineOptions& options, const Scene& scene) {
   if (options.strategy) pipeline.strategy = *options.strategy;
   if (options.view) pipeline.view = *options.view;
   validate(pipeline);
+  require_pixels(pipeline.width, pipeline.height, options.scene);
   return pipeline;
 }
 

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <sstream>
-#include <system_error>
 
 #include "cli/capture/captured_planes.h"
 #include "cli/capture/stored_planes.h"
 #include "cli/capture_options.h"
+#include "cli/named_file.h"
 #include "core/error.h"
 #include "core/sha256.h"
 #include "shading/frame.h"
@@ -37,12 +38,8 @@ std::string planes_hash(const oracle::Capture& capture) {
 
 std::string without_folder(const std::string& path) { return fs::path(path).filename().string(); }
 
-/// A file by its name: where the command runs, else beside the picture.
 std::string found_file(const std::string& name, const std::string& picture) {
-  std::error_code unknown;
-  const std::string beside = (fs::path(picture).parent_path() / name).string();
-  for (const std::string& path : {name, beside})
-    if (fs::exists(path, unknown)) return path;
+  if (const std::optional<std::string> file = file_named_by(picture, name)) return *file;
   throw Error(ErrorKind::bad_input, name, "the reference was shaded of this, and it is neither here nor beside it",
               "--no-judge compares values alone");
 }
@@ -54,6 +51,17 @@ CaptureOptions found_files(const Metadata& metadata, const std::string& picture)
   if (const std::string* map = value_of(metadata, kMap))
     options.map = map->starts_with('@') ? '@' + found_file(map->substr(1), picture) : *map;
   return options;
+}
+
+/// The planes of files that a picture names. No word of a file that holds none is repeated: whoever made the picture
+/// has chosen the file.
+StoredPlanes planes_of_named(const CaptureOptions& files, const Limits& limits, const Scene& scene,
+                             const Pipeline& pipeline) try {
+  return stored_planes(capture_files_of(files, limits), scene, pipeline);
+} catch (const Error& error) {
+  if (error.kind() == ErrorKind::limit) throw;
+  throw Error(ErrorKind::bad_input, "the reference's G-buffer", "what it names is no G-buffer of its scene",
+              "--no-judge compares values alone");
 }
 
 }  // namespace
@@ -80,7 +88,7 @@ bool is_shaded(const Metadata& metadata) {
 
 StoredPlanes found_gbuffer(const Metadata& metadata, const std::string& picture, const Limits& limits,
                            const Scene& scene, const Pipeline& pipeline) {
-  StoredPlanes planes = stored_planes(capture_files_of(found_files(metadata, picture), limits), scene, pipeline);
+  StoredPlanes planes = planes_of_named(found_files(metadata, picture), limits, scene, pipeline);
   if (planes_hash(planes.capture) == *value_of(metadata, kHash)) return planes;
   throw Error(ErrorKind::bad_input, planes.capture.name,
               "it is another G-buffer today than the reference was shaded of", "--no-judge compares values alone");

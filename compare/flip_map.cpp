@@ -17,7 +17,7 @@ constexpr int kFlipBandRows = 64;
 using Vec3 = std::array<double, 3>;
 using Matrix = std::array<Vec3, 3>;
 
-Matrix inverse(const Matrix& m) {
+constexpr Matrix inverse(const Matrix& m) {
   const auto cofactor = [&m](size_t r, size_t c) {
     const size_t r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
     return m[r1][c1] * m[r2][c2] - m[r1][c2] * m[r2][c1];
@@ -30,7 +30,7 @@ Matrix inverse(const Matrix& m) {
 }
 
 /// XYZ of linear RGB, each over that of white, from the chromaticities of sRGB (IEC 61966-2-1): so white is 1, 1, 1.
-Matrix relative_xyz_matrix() {
+constexpr Matrix relative_xyz_matrix() {
   constexpr double kX[] = {0.64, 0.30, 0.15}, kY[] = {0.33, 0.60, 0.06}, kWhiteX = 0.3127, kWhiteY = 0.3290;
   Matrix primaries{};
   for (size_t c = 0; c < 3; ++c)
@@ -45,8 +45,8 @@ Matrix relative_xyz_matrix() {
 }
 
 struct FloatMatrix {
-  float m[3][3];
-  explicit FloatMatrix(const Matrix& from) {
+  float m[3][3] = {};
+  constexpr explicit FloatMatrix(const Matrix& from) {
     for (size_t r = 0; r < 3; ++r)
       for (size_t c = 0; c < 3; ++c) m[r][c] = float(from[r][c]);
   }
@@ -56,7 +56,8 @@ struct FloatMatrix {
   }
 };
 
-const FloatMatrix kXyzOfRgb{relative_xyz_matrix()}, kRgbOfXyz{inverse(relative_xyz_matrix())};
+/// Computed by the compiler: before main() a host's rounding mode or traps may be in force.
+constexpr FloatMatrix kXyzOfRgb{relative_xyz_matrix()}, kRgbOfXyz{inverse(relative_xyz_matrix())};
 
 /// CIELAB, its a and b scaled by the lightness, as colours look fainter in the dark (Hunt's effect).
 std::array<float, 3> hunt_lab(const std::array<float, 3>& rgb) {

@@ -13,7 +13,7 @@ enum class ErrorKind : int {
   limit = 4,      ///< well formed, but over a stated limit
   io = 5,         ///< reading or writing failed
   out_of_memory = 6,
-  no_gl_driver = 7,  ///< no OpenGL on this machine, or not enough of it
+  no_gl_driver = 7,  ///< no OpenGL on this machine, or not enough of it; or a CPU that this build has no kernels for
 };
 
 /// A fault in what the user gave us: a file, a scene, an option. Bugs in our own code assert instead.

@@ -2,6 +2,7 @@
 
 #include <new>
 #include <stdexcept>
+#include <system_error>
 
 #include "core/error.h"
 
@@ -14,6 +15,10 @@ FailureText failure_text(const std::exception_ptr& failure) {
     return {int32_t(error.kind()), error.what()};
   } catch (const std::bad_alloc&) {
     return {int32_t(ErrorKind::out_of_memory), "memory: there is not enough (give this machine fewer ranks)"};
+  } catch (const std::system_error& error) {
+    if (error.code() != std::errc::resource_unavailable_try_again) return {0, error.what()};
+    return {int32_t(ErrorKind::out_of_memory),
+            "threads: the system starts no more (raise the limit on processes there)"};
   } catch (const std::exception& error) {
     return {0, error.what()};
   } catch (...) {

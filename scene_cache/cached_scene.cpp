@@ -103,7 +103,18 @@ void check_what_is_read_whole(const CheckedFile& file, const CachedScene& cached
   parallel_for(int(parts.size()), 0, [&](int i) { file.check(parts[size_t(i)].data(), parts[size_t(i)].size()); });
 }
 
-/// The scene in a cache file; nothing if there is none of this origin.
+/// Whether instances and materials name what is there. A file of this program does; indices of vertices and those of
+/// the timeline are taken as they are.
+bool names_exist(const Scene& scene) {
+  for (const Instance& instance : scene.instances)
+    if (instance.mesh >= scene.meshes.size() || instance.material >= scene.materials.size()) return false;
+  for (const Material& material : scene.materials)
+    for (const TextureSlot* slot : maps_of(material))
+      if (slot->used() && size_t(slot->texture) >= scene.textures.size()) return false;
+  return true;
+}
+
+/// The scene in a cache file; nothing if there is none of this origin. Error(bad_input) for a file that is forged.
 std::optional<CachedScene> read_cache(const std::string& path, const std::string& spec, const SceneLimits& limits) try {
   const std::shared_ptr<const CheckedFile> file = CheckedFile::open(path);
   if (!file) return std::nullopt;
@@ -125,6 +136,9 @@ std::optional<CachedScene> read_cache(const std::string& path, const std::string
     cached.clusters->meshes[i].boxes = std::move(culled[i].boxes);
   }
   tables(scene);
+  if (!names_exist(scene))
+    throw Error(ErrorKind::bad_input, path, "it names what it does not hold, so it is not of this program",
+                "remove it, and see who can write to its folder");
   const auto digests = tables.taken<std::optional<SceneDigests>>();
   if (digests) scene.digests = std::make_shared<SceneDigests>(*digests);
   check_what_is_read_whole(*file, cached);

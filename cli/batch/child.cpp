@@ -36,7 +36,9 @@ int stop_pipe[2] = {-1, -1};
 std::atomic<bool> stopped{false};
 
 Error cannot_start(const char* step, int error) {
-  return {ErrorKind::io, "batch", std::string("cannot ") + step + ": " + std::strerror(error),
+  const bool none_left = error == EAGAIN || error == ENOMEM;
+  return {none_left ? ErrorKind::out_of_memory : ErrorKind::io, "batch",
+          std::string("cannot ") + step + ": " + std::strerror(error),
           "fewer --jobs at once, or a higher limit on processes and files"};
 }
 

@@ -33,10 +33,12 @@ struct JobList {
 };
 
 /// Reads the text of a file of jobs (docs/batch.md). Keys, types, names and `after` are checked, and there are no
-/// circles; words of `run` are not. Error(bad_input) behind `file` and a JSON pointer; Error(limit) over kMostJobs.
+/// circles; words of `run` are not. Error(bad_input) behind `file` and a JSON pointer; Error(limit) over kMostJobs or
+/// kMostJobsOfOne, and over the memory cap.
 JobList job_list_from_json(std::string_view text, const std::string& file);
 
 inline constexpr size_t kMostJobs = 1000000;          ///< with those that `for` makes
+inline constexpr size_t kMostJobsOfOne = 10000;       ///< that the `for` of one makes
 inline constexpr size_t kMostDependences = 10000000;  ///< of all jobs together
 
 /// The jobs whose names fit a pattern of `*`, `?` and `[...]` (fnmatch), and those that they are after, in order. A

@@ -6,6 +6,7 @@
 
 #include "cli/batch/job.h"
 #include "core/likeliest_name.h"
+#include "core/memory_cap.h"
 
 namespace trueshade::batch {
 namespace {
@@ -87,9 +88,9 @@ class ListReader {
   void check_count(const json::Node& words, const json::Members& lists) const {
     size_t made = 1;
     for (const auto& [word, value] : lists) {
-      made *= json::Node(value, words, std::string_view(word)).array(1, kMostJobs).size();
-      if (list_.jobs.size() + made > kMostJobs)
-        words.fail("this makes more jobs than the limit", "at most " + std::to_string(kMostJobs) + " in a file",
+      made *= json::Node(value, words, std::string_view(word)).array(1, kMostJobsOfOne).size();
+      if (made > kMostJobsOfOne)
+        words.fail("this makes more jobs than the limit", "at most " + std::to_string(kMostJobsOfOne),
                    ErrorKind::limit);
     }
   }
@@ -102,7 +103,7 @@ class ListReader {
     const json::Node choices(value, *words, std::string_view(word));
     if (word.empty() || word.find_first_of("{}") != std::string::npos)
       choices.fail("the word is empty or has braces", "a word of letters");
-    const size_t count = choices.array(1, kMostJobs).size();
+    const size_t count = choices.array(1, kMostJobsOfOne).size();
     for (size_t i = 0; i < count; ++i) {
       meanings.emplace_back(word, choices.element(i).string());
       read_for(node, words, lists, place + 1, meanings);
@@ -131,8 +132,16 @@ class ListReader {
       const size_t count = names->array(0, kMostJobs).size();
       for (size_t i = 0; i < count; ++i) after.push_back(filled(names->element(i).string(), meanings));
     }
+    require_memory(bytes_of(job, after), list_.file + ": " + job.pointer, "the jobs");
     list_.jobs.push_back(std::move(job));
     after_.push_back(std::move(after));
+  }
+
+  static uint64_t bytes_of(const Job& job, const std::vector<std::string>& after) {
+    uint64_t bytes = sizeof(Job) + 2 * job.name.size();  // a name is a key, too
+    for (const auto* texts : {&job.run, &after, &job.expected.hashes})
+      for (const std::string& text : *texts) bytes += sizeof text + text.size();
+    return bytes;
   }
 
   static Expectation expectation(const json::Node& node, const Meanings& meanings) {

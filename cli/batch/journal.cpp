@@ -23,7 +23,7 @@ Error cannot(const std::string& path, const char* step) {
 }  // namespace
 
 Journal::Journal(const std::string& path, std::string program, bool keeps) : path_(path), program_(std::move(program)) {
-  descriptor_ = open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOCTTY, 0666);
+  descriptor_ = open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOCTTY | O_NOFOLLOW, 0666);
   if (descriptor_ < 0) throw cannot(path, "open it");
   try {
     struct stat status {};

@@ -54,8 +54,8 @@ struct ChannelFile {
 
 /// Reads all channels of an EXR (of scan lines or tiles, of one part or several of one size), PNG, TIFF, DDS or .npy,
 /// which the first bytes tell apart. Error(bad_input): none of these, torn, of a kind that is not read, parts of two
-/// sizes. Error(limit): over 16384 pixels a side or 4 GiB decoded, over `most_expansion`, over the memory cap.
-/// Error(io): cannot be read.
+/// sizes. Error(limit): over 2^20 pixels a side or 2^31 in all, over --max-pixels, over `most_expansion`, over the
+/// memory cap. Error(io): cannot be read.
 ChannelFile read_channel_file(const std::string& path, uint64_t most_expansion);
 
 // What read_channel_file() is made of. `where` stands in errors.

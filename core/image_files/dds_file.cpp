@@ -169,7 +169,7 @@ ChannelFile dds_channels(const std::string& where, std::span<const uint8_t> byte
   } else {
     dds.fail("its pixel format is not known");
   }
-  check_size(where, int(std::min(width, 1u << 20)), int(std::min(height, 1u << 20)), uint64_t(4 * format.channels));
+  check_size(where, int(std::min(width, 1u << 30)), int(std::min(height, 1u << 30)));
   if (levels > 15) dds.fail("it has over 15 levels", "write the file again");
   uint64_t expected = 0;
   for (uint32_t level = 0; level < levels; ++level)

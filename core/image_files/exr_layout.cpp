@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/image_files/size_limits.h"
 
 namespace trueshade {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 constexpr uint32_t kTiledFlag = 0x200, kLongNamesFlag = 0x400, kDeepFlag = 0x800,
                    kPartsFlag = 0x1000;  // flags beside the version
 constexpr size_t kMostNameBytes = 255, kMostChannels = 1024, kMostParts = 64;
-constexpr int64_t kMostSide = 65536;
 constexpr uint64_t kMostManifest = uint64_t(16) << 20;
 
 /// Numbers and names one after another; each is checked against the end.
@@ -161,8 +161,8 @@ ExrLayout checked_layout(const std::string& where, const HeaderValues& header, b
     file.fail("its header names no channels, window or compression");
   if (*header.block_rows == 0) file.fail("its compression is not known", "store it with ZIP");
   const PixelWindow& window = *header.data_window;
-  if (window.width > kMostSide || window.height > kMostSide)
-    throw Error(ErrorKind::limit, where, "it is over 65536 pixels a side", "give a part of it");
+  if (window.width > kMaxSide || window.height > kMaxSide)
+    throw Error(ErrorKind::limit, where, "it is over 1048576 pixels a side", "give a part of it");
   entries += blocks_of(header, tiled, file);
   return {int(window.width), int(window.height), *header.pixel_bytes};
 }

@@ -85,7 +85,7 @@ ImageFileInfo header_of(const std::string& path, std::span<const uint8_t> bytes)
 
 /// Refuses what is too large, deep, or not all of a picture.
 void check_window(const std::string& path, const OIIO::ImageSpec& spec) {
-  check_size(path, spec.width, spec.height, spec.pixel_bytes(true));
+  check_size(path, spec.width, spec.height);
   if (spec.deep || spec.depth != 1) throw bad_image(path, "it is a deep image", "store one sample a pixel");
   if (spec.x != 0 || spec.y != 0 || spec.full_x != 0 || spec.full_y != 0 || spec.full_width != spec.width ||
       spec.full_height != spec.height)
@@ -214,7 +214,7 @@ void append_words(const std::vector<uint8_t>& rows, size_t pixel_bytes, std::spa
 
 ChannelFile channels_of_part(const std::string& path, ExrFile& exr) {
   const OIIO::ImageSpec& spec = exr.spec();
-  check_size(path, spec.width, spec.height, spec.pixel_bytes(true));
+  check_size(path, spec.width, spec.height);
   if (spec.deep || spec.depth != 1) throw bad_image(path, "it is a deep image", "store one sample a pixel");
   ChannelFile file{path, spec.width, spec.height, {}};
   if (spec.x != spec.full_x || spec.y != spec.full_y || spec.full_width != spec.width ||

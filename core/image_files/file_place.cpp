@@ -25,6 +25,17 @@ std::string followed(const std::string& path) {
   fail_to(path, "find what it links to", ELOOP);
 }
 
+/// Whether the process has it open, as what /dev/stdout and /dev/fd/63 stand for.
+bool is_open(const struct stat& wanted) {
+  constexpr int kMostDescriptors = 256;
+  for (int descriptor = 0; descriptor < kMostDescriptors; ++descriptor) {
+    struct stat status {};
+    if (fstat(descriptor, &status) == 0 && status.st_dev == wanted.st_dev && status.st_ino == wanted.st_ino)
+      return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Destination destination_of(const std::string& path) {
@@ -34,6 +45,8 @@ Destination destination_of(const std::string& path) {
     if (errno == ENAMETOOLONG) fail_to(path, "write", errno);  // what else hinders, making a file in the folder will say
     return {false, followed(path)};
   }
+  if (S_ISFIFO(there.st_mode) && !is_open(there))
+    throw Error(ErrorKind::io, path, "is a pipe, and opening it waits for a reader", "write to -, sent into the pipe");
   if (S_ISCHR(there.st_mode) || S_ISFIFO(there.st_mode)) return {true, path};
   if (S_ISDIR(there.st_mode)) fail_to(path, "write", EISDIR);
   if (!S_ISREG(there.st_mode))

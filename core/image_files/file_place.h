@@ -8,7 +8,7 @@ namespace trueshade {
 
 /// What a path that may be written stands for.
 struct Destination {
-  bool stream;                   ///< a device or a pipe: bytes go into it, and nothing takes its place
+  bool stream;                   ///< a device, or a pipe that is open: bytes go into it, and nothing takes its place
   std::string path;              ///< with no link at its end
   std::optional<mode_t> mode{};  ///< permissions of the file that is there
 };

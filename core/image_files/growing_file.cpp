@@ -1,11 +1,14 @@
 #include "core/image_files/growing_file.h"
 
 #include <fcntl.h>
+#include <libdeflate.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <vector>
 
 #include "core/error.h"
 #include "core/file_notes.h"
@@ -22,6 +25,10 @@ bool is_standard_output(const std::string& path) {
 }
 
 }  // namespace
+
+uint32_t crc_of(std::span<const uint8_t> bytes, uint32_t before) {
+  return libdeflate_crc32(before, bytes.data(), bytes.size());
+}
 
 std::string part_name(const std::string& path) {
   if (is_standard_output(path)) return {};
@@ -80,6 +87,22 @@ void GrowingFile::cut(uint64_t size) {
   if (uint64_t(there.st_size) < size)
     throw Error(ErrorKind::io, part_, "is shorter than it was left", "delete it to begin anew");
   if (ftruncate(descriptor_, off_t(size)) != 0) fail_to(part_, "write", errno);
+}
+
+std::optional<uint32_t> GrowingFile::crc(uint64_t from, uint64_t end) const {
+  constexpr uint64_t kStep = uint64_t(1) << 20;
+  std::vector<uint8_t> bytes(size_t(std::min(kStep, end - from)));
+  uint32_t crc = 0;
+  while (from < end) {
+    const ssize_t got =
+        pread(descriptor_, bytes.data(), size_t(std::min<uint64_t>(bytes.size(), end - from)), off_t(from));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail_to(part_, "read", errno);
+    if (got == 0) return std::nullopt;
+    crc = crc_of({bytes.data(), size_t(got)}, crc);
+    from += uint64_t(got);
+  }
+  return crc;
 }
 
 void GrowingFile::sync() {

@@ -1,9 +1,13 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
 namespace trueshade {
+
+/// CRC-32 (ISO 3309) of bytes behind others whose CRC-32 is `before`.
+uint32_t crc_of(std::span<const uint8_t> bytes, uint32_t before = 0);
 
 /// A file that is written over a long time. It grows as `PATH.part`, stays there if the process ends, and takes the
 /// place of PATH when it is finished; PATH is never a part of a file. Of a device or a pipe (`-` is standard output)
@@ -19,7 +23,8 @@ class GrowingFile {
   bool is_stream() const { return stream_; }
   void put(uint64_t at, std::span<const uint8_t> bytes);  ///< Error(io)
   void cut(uint64_t size);  ///< drops what lies behind. Error(io), also where the part is shorter.
-  void sync();              ///< Error(io)
+  std::optional<uint32_t> crc(uint64_t from, uint64_t end) const;  ///< of its bytes; nothing where it is shorter
+  void sync();                                                     ///< Error(io)
   void finish();            ///< on disk, under its name. Error(io)
 
  private:

@@ -137,7 +137,7 @@ void read_row(HdrFile& file, HdrRow& row) {
 ChannelFile hdr_channels(const std::string& where, std::span<const uint8_t> bytes, uint64_t most_expansion) {
   HdrFile file(where, bytes);
   const HdrSize size = hdr_header(file);
-  check_size(where, size.width, size.height, 12);
+  check_size(where, size.width, size.height);
   const uint64_t pixels = uint64_t(size.width) * uint64_t(size.height);
   if (is_expanded(12 * pixels, bytes.size(), most_expansion))
     throw Error(ErrorKind::limit, where,

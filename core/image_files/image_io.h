@@ -54,7 +54,8 @@ std::vector<std::vector<uint8_t>> encoded_image(const std::string& name, const I
 std::vector<uint8_t> encode_png(const Image& color, const Metadata& metadata, const ImageFileOptions& options = {});
 
 /// Writes bytes to `path` whole or not at all (temporary, fsync, rename); what a link leads to is written, not the
-/// link. Devices and pipes get the bytes. Error(io); also for folders and whatever else is neither.
+/// link. Devices get the bytes, and pipes that the process has open, such as /dev/stdout. Error(io); also for other
+/// pipes, which would wait for a reader, for folders and whatever else is neither.
 void write_file(const std::string& path, std::span<const uint8_t> bytes);
 
 /// The same for bytes in pieces that follow each other.
@@ -87,8 +88,8 @@ Image decode_image(std::span<const uint8_t> content, const std::string& where, u
 /// where a plane has so few components; halves of those are widened). A PNG is rgba8 or, of 16
 /// bits a channel, rgba16: codes as they are stored (png_pixels.h), whatever they are tagged as; alpha 1 where there is
 /// none, which read_image_info() tells. Memory grows with the rows decoded. Error(bad_input): no file, not such a file,
-/// torn, a plane without all its channels, tiles, parts, crops, no plane at all. Error(limit): over 16384 pixels a side
-/// or 4 GiB decoded, over `most_expansion`, over the memory cap. Error(io): cannot be read.
+/// torn, a plane without all its channels, tiles, parts, crops, no plane at all. Error(limit): over 2^20 pixels a side
+/// or 2^31 in all, over `most_expansion`, over the memory cap. Error(io): cannot be read.
 std::vector<NamedImage> read_planes(const std::string& path, uint64_t most_expansion = kMostExpansion);
 
 }  // namespace trueshade

@@ -5,13 +5,11 @@
 #include <sys/mman.h>
 
 #include <filesystem>
-#include <latch>
 #include <system_error>
-#include <thread>
-#include <vector>
 
 #include "core/error.h"
 #include "core/image_files/image_io_table.h"
+#include "core/threads/startable_threads.h"
 
 namespace trueshade {
 namespace {
@@ -33,26 +31,6 @@ Error out_of_memory(const char* where, const char* reason, const char* remedy) {
   return {ErrorKind::out_of_memory, where, reason, remedy};
 }
 
-/// Starts as many threads at once as OpenImageIO and OpenEXR do for their pools (6 on 2 cores), and ends them. Where
-/// the libraries' own cannot be started, their initializers wait forever or end the process by a signal.
-void check_threads() {
-  const unsigned most = 2 * std::thread::hardware_concurrency() + 4;
-  std::latch all_tried(1);
-  std::vector<std::thread> threads;
-  bool missing = false;
-  try {
-    threads.reserve(most);
-    for (unsigned i = 0; i < most; ++i) threads.emplace_back([&all_tried] { all_tried.wait(); });
-  } catch (const std::system_error&) {
-    missing = true;
-  }
-  all_tried.count_down();
-  for (std::thread& thread : threads) thread.join();
-  if (missing)
-    throw out_of_memory("threads", "the system starts no more, and OpenImageIO needs some to read this picture",
-                        "raise the limit on processes (ulimit -u), or end others");
-}
-
 /// Whether the process may have as much address space as loading takes.
 bool has_address_space() {
   constexpr size_t kBytes = size_t(320) << 20;
@@ -63,7 +41,7 @@ bool has_address_space() {
 }
 
 const ImageIoTable& loaded_table() {
-  check_threads();
+  require_threads_of_library("OpenImageIO, which reads this picture,");
   if (!has_address_space())
     throw out_of_memory("memory", "there is not enough to load OpenImageIO", "raise the limit on it (ulimit -v)");
   std::string reason = "it is not there";

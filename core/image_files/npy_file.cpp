@@ -183,7 +183,7 @@ ChannelFile npy_channels(const std::string& where, std::span<const uint8_t> byte
   if (count < 1 || count > kMostNpyChannels)
     throw bad_image(where, "its array has " + std::to_string(count) + " channels",
                     "the last axis is that of channels, 1 to 64");
-  check_size(where, int(std::min<uint64_t>(width, 1 << 20)), int(std::min<uint64_t>(height, 1 << 20)), 4 * count);
+  check_size(where, int(std::min<uint64_t>(width, 1 << 30)), int(std::min<uint64_t>(height, 1 << 30)));
   const uint64_t pixels = width * height;
   if (bytes.size() - layout.data != pixels * count * layout.bytes)
     throw bad_image(where,

@@ -27,4 +27,8 @@ struct PictureFile {
 /// Errors as read_channel_file() has them.
 PictureFile read_any_picture(const std::string& path, uint64_t most_expansion);
 
+/// Decodes all of a PNG and keeps none of it, so that it may be of any size. Errors as read_any_picture() has them of a
+/// PNG that is damaged.
+void check_png(const std::string& path, uint64_t most_expansion);
+
 }  // namespace trueshade

@@ -20,15 +20,21 @@ Error refused(const std::string& where, const char* reason) {
   return {ErrorKind::bad_input, where, reason, "write the file again"};
 }
 
-/// Makes an image of the compressed rows of a PNG, row by row as they come.
+/// What is done with the texels of a PNG.
+enum class Texels : uint8_t { kept, passed_over };
+
+/// Makes an image of the compressed rows of a PNG, row by row as they come; where texels are passed over, of the height
+/// of a row, which each row is put into.
 class RowDecoder {
  public:
-  RowDecoder(const std::string& where, const PngLayout& layout, const PngColors& colors)
+  RowDecoder(const std::string& where, const PngLayout& layout, const PngColors& colors, Texels texels)
       : where_(where),
         layout_(layout),
         colors_(colors),
         passes_(png_passes(layout)),
-        image_(layout.width, layout.height, layout.bits == 16 ? Format::rgba16 : Format::rgba8) {
+        texels_(texels),
+        image_(layout.width, texels == Texels::kept ? layout.height : 1,
+               layout.bits == 16 ? Format::rgba16 : Format::rgba8) {
     if (inflateInit(&stream_) != Z_OK) throw std::bad_alloc();
     begin_pass();
   }
@@ -77,7 +83,7 @@ class RowDecoder {
     const std::span<uint8_t> row = std::span(row_).subspan(1);
     if (!undo_png_filter(row_[0], row, std::span(above_).subspan(1), layout_.texel_bytes()))
       throw refused(where_, "a row has a filter that PNG does not know");
-    uint8_t* const out = image_.texel(pass.x0, pass.y0 + y_ * pass.dy);
+    uint8_t* const out = image_.texel(pass.x0, texels_ == Texels::kept ? pass.y0 + y_ * pass.dy : 0);
     if (!png_row_as_rgba(layout_, colors_, row, pass.columns(layout_), size_t(pass.dx), out))
       throw refused(where_, "a texel is beyond its palette");
     std::swap(row_, above_);
@@ -91,6 +97,7 @@ class RowDecoder {
   const PngLayout& layout_;
   const PngColors& colors_;
   std::span<const PngPass> passes_;  ///< those to come, the one at work first
+  const Texels texels_;
   Image image_;
   z_stream stream_{};
   std::vector<uint8_t> row_, above_;
@@ -129,9 +136,7 @@ void set_transparency(const std::string& where, std::span<const uint8_t> data, c
     colors.key[c] = uint16_t((data[2 * c] << 8 | data[2 * c + 1]) & ((1 << layout.bits) - 1));
 }
 
-}  // namespace
-
-Image png_pixels(const std::string& where, std::span<const uint8_t> bytes) {
+Image decoded_rows(const std::string& where, std::span<const uint8_t> bytes, Texels texels) {
   PngLayout layout;
   PngColors colors;
   std::optional<RowDecoder> rows;
@@ -148,7 +153,7 @@ Image png_pixels(const std::string& where, std::span<const uint8_t> bytes) {
     } else if (name == "tRNS") {
       set_transparency(where, data, layout, colors);
     } else if (name == "IDAT") {
-      if (!rows) rows.emplace(where, layout, colors);
+      if (!rows) rows.emplace(where, layout, colors, texels);
       rows->add(data);
     } else if (name == "IEND") {
       break;
@@ -157,6 +162,16 @@ Image png_pixels(const std::string& where, std::span<const uint8_t> bytes) {
   }
   if (!rows) throw refused(where, "it holds fewer texels than its header says");
   return rows->finish();
+}
+
+}  // namespace
+
+Image png_pixels(const std::string& where, std::span<const uint8_t> bytes) {
+  return decoded_rows(where, bytes, Texels::kept);
+}
+
+void check_png_pixels(const std::string& where, std::span<const uint8_t> bytes) {
+  decoded_rows(where, bytes, Texels::passed_over);
 }
 
 }  // namespace trueshade

@@ -16,4 +16,7 @@ namespace trueshade {
 /// beyond the palette.
 Image png_pixels(const std::string& where, std::span<const uint8_t> bytes);
 
+/// Throws what png_pixels() would, in the memory of some rows.
+void check_png_pixels(const std::string& where, std::span<const uint8_t> bytes);
+
 }  // namespace trueshade

@@ -30,10 +30,8 @@
 namespace trueshade {
 namespace {
 
-constexpr uint64_t kMaxFileBytes = uint64_t(4) << 30;
-
 std::vector<uint8_t> read_bytes(const std::string& path) {
-  if (path == kStandardInputName) return read_standard_input(kMaxFileBytes, "");
+  if (path == kStandardInputName) return read_standard_input(UINT64_MAX, "");
   const auto fail = [&path](const char* step) -> Error {
     return {ErrorKind::io, path, std::string("cannot ") + step + ": " + std::strerror(errno), "check the name"};
   };
@@ -48,8 +46,6 @@ std::vector<uint8_t> read_bytes(const std::string& path) {
   if (fstat(descriptor, &status) != 0) throw fail("read it");
   if (!S_ISREG(status.st_mode))
     throw Error(ErrorKind::bad_input, path, "this is no regular file", "name an image file");
-  if (uint64_t(status.st_size) > kMaxFileBytes)
-    throw Error(ErrorKind::limit, path, "the file is over 4 GiB", "give a smaller one");
   require_memory(uint64_t(status.st_size), path, "the file");
   std::vector<uint8_t> bytes(size_t(status.st_size));
   for (size_t done = 0; done < bytes.size();) {
@@ -77,7 +73,7 @@ void check_bytes(const std::string& where, uint64_t decoded, uint64_t copies, st
 /// The same of a picture whose pixels take `texel_bytes` then.
 void check_decoded(const std::string& where, int width, int height, uint64_t texel_bytes, uint64_t copies,
                    std::span<const uint8_t> encoded, uint64_t most_expansion) {
-  check_size(where, width, height, texel_bytes);
+  check_size(where, width, height);
   check_bytes(where, uint64_t(width) * uint64_t(height) * texel_bytes, copies, encoded, most_expansion);
 }
 
@@ -120,7 +116,7 @@ Image with_alpha(const Image& rgb) {
 }
 
 void check_budget(const std::string& where, int width, int height, uint64_t texel_bytes, uint64_t most_bytes) {
-  check_size(where, width, height, texel_bytes);
+  check_texture_size(where, width, height, texel_bytes);
   if (uint64_t(width) * uint64_t(height) * texel_bytes > most_bytes)
     throw Error(ErrorKind::limit, where, "with it the pictures are over the limit of decoded bytes",
                 "smaller ones, or a higher --max-texture-memory");
@@ -188,7 +184,7 @@ std::vector<ChannelFile> checked_parts(const std::string& path, std::span<const 
                                        uint64_t most_expansion) {
   uint64_t decoded = 0;
   for (const ExrLayout& part : exr_part_layouts(path, bytes)) {
-    check_size(path, part.width, part.height, part.pixel_bytes);
+    check_size(path, part.width, part.height);
     decoded += uint64_t(part.width) * uint64_t(part.height) * part.pixel_bytes;
   }
   check_bytes(path, decoded, 3, bytes, most_expansion);
@@ -318,6 +314,14 @@ PictureFile read_any_picture(const std::string& path, uint64_t most_expansion) {
   }
   find_color_space(picture);
   return picture;
+}
+
+void check_png(const std::string& path, uint64_t most_expansion) {
+  const std::vector<uint8_t> bytes = read_bytes(path);
+  const ImageFileInfo header = png_header(path, bytes);
+  check_bytes(path, uint64_t(header.width) * uint64_t(header.height) * texel_bytes_of(header), 0, bytes,
+              most_expansion);
+  check_png_pixels(path, bytes);
 }
 
 std::vector<NamedImage> read_planes(const std::string& path, uint64_t most_expansion) {

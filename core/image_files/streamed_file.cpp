@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 
 #include "core/error.h"
 #include "core/file_ending.h"
@@ -80,6 +81,20 @@ std::vector<uint8_t> exr_head_of(const std::string& name, const StreamedPicture&
   return head;
 }
 
+/// What stands before the pieces, and where it ends.
+struct Head {
+  uint64_t hash_at = 0;  // EXR: of the hash's digits; stands first, as the making of the others sets it
+  std::vector<uint8_t> bytes;
+  uint64_t pieces_at;  // behind the offsets of an EXR's tiles
+
+  Head(const std::string& name, const StreamedPicture& picture)
+      : bytes(is_png(name) ? png_head_of(name, picture) : exr_head_of(name, picture, hash_at)),
+        pieces_at(bytes.size()) {
+    if (!is_png(name)) pieces_at += 8 * uint64_t(tiles_along(picture.width)) * uint64_t(tiles_along(picture.height));
+  }
+  uint64_t table_at() const { return bytes.size(); }
+};
+
 /// A column of tiles of some rows.
 Image cut_out(const Image& from, int x, int y, int width, int height) {
   Image out(width, height, from.format);
@@ -124,27 +139,25 @@ struct StreamedFile::Work {
   bool png;
   GrowingFile file;
   StreamedState state;
-  uint64_t hash_at = 0, table_at = 0;  // EXR: of the hash's digits, and of the offsets of tiles
+  uint64_t hash_at = 0, table_at = 0;  // of Head
 
   Work(const std::string& path, const StreamedPicture& picture, const StreamedState* from)
       : name(path), png(is_png(path)), file(path, from != nullptr) {
     if (!png && file.is_stream())
       throw Error(ErrorKind::usage, path, "tiles of an EXR have a table before them that is written last",
                   "write it to a file, or stream a PNG");
-    const std::vector<uint8_t> head = png ? png_head_of(path, picture) : exr_head_of(path, picture, hash_at);
-    table_at = head.size();
+    const Head head(path, picture);
+    hash_at = head.hash_at, table_at = head.table_at();
+    state.end = head.pieces_at;
     if (from != nullptr) {
       state = *from;
       file.cut(state.end);
-      return;
     }
-    file.put(0, head);
-    state.end = head.size();
-    if (!png) state.end += 8 * uint64_t(tiles_along(picture.width)) * uint64_t(tiles_along(picture.height));
+    file.put(0, head.bytes);
   }
 
-  /// Tiles, and where they begin.
-  void append_tiles(const EncodedRows& rows) {
+  /// Where tiles begin.
+  void append_table(const EncodedRows& rows) {
     std::vector<uint8_t> table;
     uint64_t at = state.end;
     for (const std::vector<uint8_t>& tile : rows.pieces) {
@@ -152,6 +165,7 @@ struct StreamedFile::Work {
       at += tile.size();
     }
     file.put(table_at + 8 * state.pieces, table);
+    state.table_crc = crc_of(table, state.table_crc);
   }
 };
 
@@ -163,9 +177,10 @@ const StreamedState& StreamedFile::state() const { return work_->state; }
 
 void StreamedFile::append(const EncodedRows& rows) {
   Work& w = *work_;
-  if (!w.png) w.append_tiles(rows);
+  if (!w.png) w.append_table(rows);
   for (const std::vector<uint8_t>& piece : rows.pieces) {
     w.file.put(w.state.end, piece);
+    w.state.pieces_crc = crc_of(piece, w.state.pieces_crc);
     w.state.end += piece.size();
     ++w.state.pieces;
   }
@@ -181,6 +196,17 @@ void StreamedFile::finish(const std::string& image_hash) {
   else
     w.file.put(w.hash_at, {reinterpret_cast<const uint8_t*>(image_hash.data()), image_hash.size()});
   w.file.finish();
+}
+
+bool part_is_sound(const std::string& path, const StreamedPicture& picture, const StreamedState& state) {
+  const GrowingFile part(path, true);
+  const Head head(path, picture);
+  const auto holds = [&part](uint64_t from, uint64_t end, uint32_t crc) {
+    const std::optional<uint32_t> there = part.crc(from, end);
+    return there && *there == crc;
+  };
+  if (!is_png(path) && !holds(head.table_at(), head.table_at() + 8 * state.pieces, state.table_crc)) return false;
+  return state.end >= head.pieces_at && holds(head.pieces_at, state.end, state.pieces_crc);
 }
 
 }  // namespace trueshade

@@ -40,9 +40,11 @@ EncodedRows encoded_rows(const std::string& name, const StreamedPicture& picture
 
 /// How far a file has been written.
 struct StreamedState {
-  uint64_t end = 0;       ///< bytes that are in place
-  uint64_t pieces = 0;    ///< EXR: tiles
-  uint32_t checksum = 1;  ///< PNG: Adler-32 of the rows so far
+  uint64_t end = 0;         ///< bytes that are in place
+  uint64_t pieces = 0;      ///< EXR: tiles
+  uint32_t checksum = 1;    ///< PNG: Adler-32 of the rows so far
+  uint32_t pieces_crc = 0;  ///< CRC-32 of all pieces as the file holds them
+  uint32_t table_crc = 0;   ///< EXR: CRC-32 of the offsets of these tiles
 };
 
 /// A file that grows as `PATH.part` beside its place, and takes its name when it is whole; or, for PNG alone, standard
@@ -69,5 +71,9 @@ class StreamedFile {
 
 /// The file that grows in the place of `path`; empty for a stream.
 std::string part_name(const std::string& path);
+
+/// Whether that file holds what the state says: so many bytes, and their sums. All that a StreamedFile does not write
+/// anew counts. Error(io) where it cannot be read.
+bool part_is_sound(const std::string& path, const StreamedPicture& picture, const StreamedState& state);
 
 }  // namespace trueshade

@@ -120,8 +120,7 @@ TiffLayout tiff_layout(const std::string& where, const TiffFile& tiff) {
   t.width = tiff.value(kTiffWidth, 0, 0), t.height = tiff.value(kTiffHeight, 0, 0);
   t.channels = tiff.value(kTiffSamples, 0, 1);
   if (t.channels < 1 || t.channels > kMostTiffChannels) tiff.fail("it has no channels, or over 64");
-  check_size(where, int(std::min<uint64_t>(t.width, 1 << 20)), int(std::min<uint64_t>(t.height, 1 << 20)),
-             4 * t.channels);
+  check_size(where, int(std::min<uint64_t>(t.width, 1 << 30)), int(std::min<uint64_t>(t.height, 1 << 30)));
   const uint64_t bits = tiff.value(kTiffBits, 0, 1);
   for (uint64_t i = 1; i < std::min(tiff.count(kTiffBits), t.channels); ++i)
     if (tiff.value(kTiffBits, i, bits) != bits) tiff.fail("its channels have two sizes", "save them in one");

@@ -12,7 +12,8 @@ namespace trueshade {
 
 enum class SimdTarget : uint8_t { avx512, avx2, sse4, scalar };  ///< best first
 
-/// The target that kernels run on: the best one of this machine, or SimdScope's. Error(usage) if the build has none.
+/// The target that kernels run on: the best one of this machine, or SimdScope's. Error(no_gl_driver) if the build has
+/// none.
 SimdTarget simd_target();
 
 /// What TRUESHADE_KERNEL defines in X_kernel.cpp for one target. `kFunction` only names the kernel. X.cpp does not

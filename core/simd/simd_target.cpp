@@ -39,7 +39,7 @@ const std::vector<Target>& runnable() {
     for (const Target& target : kTargets)
       if (built(target.is) && (supported & target.bits) == target.bits) found.push_back(target);
     if (found.empty())
-      throw Error(ErrorKind::usage, "simd", "this build has no kernels for this machine's CPU",
+      throw Error(ErrorKind::no_gl_driver, "simd", "this build has no kernels for this machine's CPU",
                   "build with TRUESHADE_SIMD=native");
     return found;
   }();

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <new>
 #include <optional>
-#include <system_error>
 #include <thread>
-#include <vector>
 
 #include "core/threads/parallel_for.h"
+#include "core/threads/startable_threads.h"
 
 // Debian's TBB is not built for ThreadSanitizer, which then sees races that are none. Under it, plain threads serve.
 #if defined(__SANITIZE_THREAD__)
@@ -46,26 +45,6 @@ struct TbbThreads::Arena {
   std::optional<tbb::global_control> more;
 };
 #endif
-
-namespace {
-
-/// How many of `wanted` threads the system starts so that all live at the same time.
-int startable_threads(int wanted) {
-  std::vector<std::thread> started;
-  std::atomic<bool> over{false};
-  try {
-    started.reserve(size_t(wanted));
-    while (int(started.size()) < wanted) started.emplace_back([&] { over.wait(false); });
-  } catch (const std::system_error&) {  // the system's limit on threads, or no memory for a stack
-  } catch (const std::bad_alloc&) {
-  }
-  over = true;
-  over.notify_all();
-  for (std::thread& thread : started) thread.join();
-  return int(started.size());
-}
-
-}  // namespace
 
 TbbThreads::TbbThreads() : arena_(std::make_unique<Arena>()) {}
 TbbThreads::~TbbThreads() = default;

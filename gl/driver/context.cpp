@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/threads/startable_threads.h"
 
 namespace trueshade::oracle {
 
@@ -131,6 +132,7 @@ GlContext::GlContext(GlDriver driver, std::span<const GlPlatform> platforms) : h
   const ScopedVariable gallium("GALLIUM_DRIVER", gallium_name(driver));
   const ScopedVariable software("LIBGL_ALWAYS_SOFTWARE", driver == GlDriver::any ? nullptr : "1");
   require_libraries();
+  if (driver != GlDriver::softpipe) require_threads_of_library("a driver of OpenGL");
   std::string tried = "no EGL display";
   GlPlatform opened = GlPlatform::surfaceless;
   for (const GlPlatform platform : platforms) {

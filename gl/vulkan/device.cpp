@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "core/error.h"
+#include "core/threads/startable_threads.h"
 
 namespace trueshade::oracle {
 
@@ -46,8 +47,11 @@ VkBorderColor border_of(const Sampler& s) {
 }  // namespace
 
 void check_vulkan(VkResult result, const char* where) {
-  if (result != VK_SUCCESS)
-    throw std::runtime_error("Vulkan error " + std::to_string(result) + " in " + std::string(where));
+  if (result == VK_SUCCESS) return;
+  const bool memory = result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  throw Error(memory ? ErrorKind::out_of_memory : ErrorKind::no_gl_driver, "Vulkan",
+              "the driver fails with " + std::to_string(result) + " in " + std::string(where),
+              memory ? "judge a smaller image or scene" : "another driver, or OpenGL's: --driver llvmpipe");
 }
 
 VkFormat vulkan_format(Format format) {
@@ -85,6 +89,7 @@ VkFormat vulkan_format(Format format) {
 }
 
 VulkanDevice::VulkanDevice(bool software) {
+  require_threads_of_library("a driver of Vulkan");
   instance_ = make_instance(vk_);
   at_end([this] { vk_.vkDestroyInstance(instance_, nullptr); });
   uint32_t count = 0;

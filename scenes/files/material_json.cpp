@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cstring>
+#include <set>
 
 #include "core/error.h"
 #include "core/memory_cap.h"
-#include "scenes/builtin/texture_pattern.h"
 #include "scenes/trig.h"
 
 namespace trueshade {
@@ -91,12 +91,13 @@ TextureLevel MaterialReader::read_level(const json::Node& file, bool upper_left,
   return level;
 }
 
-void MaterialReader::take(uint64_t bytes, const json::Node& node) {
+void MaterialReader::take(uint64_t bytes, const json::Node& node, When when) {
   bytes_ += bytes;
   if (bytes_ > limits_.texture_bytes)
     node.fail("with its " + std::to_string(bytes) + " bytes the textures are over the limit",
               within_limit(limits_.texture_bytes, "bytes in all", "--max-texture-memory"), ErrorKind::limit);
-  require_memory(bytes, path_ + ": " + node.pointer(), "the texture");
+  require_memory(awaited_ + bytes, path_ + ": " + node.pointer(), "the texture");
+  if (when == When::later) awaited_ += bytes;
 }
 
 Texture MaterialReader::read_texture(const json::Node& node) {
@@ -109,8 +110,9 @@ Texture MaterialReader::read_texture(const json::Node& node) {
     if (encoding) encoding->fail("a pattern has a format", "remove it");
     if (origin) origin->fail("a pattern has its origin at uv (0, 0)", "remove it");
     const TexturePattern made = read_pattern(*pattern);
-    take(texture_bytes(made.width, made.height, made.format, MipChain::none), *pattern);
-    return texture_of(made);
+    take(texture_bytes(made.width, made.height, made.format, MipChain::none), *pattern, When::later);
+    patterns_.emplace_back(scene_.textures.size(), made);
+    return {{}, made.format, {{made.width, made.height, {}}}};
   }
   constexpr std::string_view kEncodings[] = {"srgb", "linear"}, kOrigins[] = {"lower_left", "upper_left"};
   const std::string how = encoding ? std::string(kEncodings[encoding->choice(kEncodings)]) : "";
@@ -197,17 +199,25 @@ Material MaterialReader::read_material(const json::Node& node, UvSources& uv) co
 }
 
 void MaterialReader::complete_mip_chains(const json::Node& materials) {
+  std::set<int32_t> to_build;
   for (const Material& material : scene_.materials)
     for (const TextureSlot* slot : maps_of(material)) {
       if (!slot->used() || slot->sampler.mip_filter == MipFilter::none) continue;
-      Texture& texture = scene_.textures[size_t(slot->texture)];
-      if (texture.levels.size() != 1) continue;
+      const Texture& texture = scene_.textures[size_t(slot->texture)];
+      if (texture.levels.size() != 1 || !to_build.insert(slot->texture).second) continue;
       const auto bytes = [&](MipChain chain) {
         return texture_bytes(texture.levels[0].width, texture.levels[0].height, texture.format, chain);
       };
-      take(bytes(MipChain::whole) - bytes(MipChain::none), materials);
-      build_mip_chain(texture);
+      take(bytes(MipChain::whole) - bytes(MipChain::none), materials, When::later);
     }
+  make_patterns();
+  for (const int32_t texture : to_build) build_mip_chain(scene_.textures[size_t(texture)]);
+}
+
+void MaterialReader::make_patterns() {
+  for (const auto& [texture, pattern] : patterns_) scene_.textures[texture].levels = texture_of(pattern).levels;
+  patterns_.clear();
+  awaited_ = 0;
 }
 
 }  // namespace trueshade

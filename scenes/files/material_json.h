@@ -3,6 +3,7 @@
 #include <string>
 
 #include "scenes/baked_uv.h"
+#include "scenes/builtin/texture_pattern.h"
 #include "scenes/files/content/scene_files.h"
 #include "scenes/json/json_value.h"
 #include "scenes/scene.h"
@@ -49,9 +50,14 @@ class MaterialReader {
 
   /// Builds the levels that lookups between levels need and no file gave. After the last material.
   void complete_mip_chains(const json::Node& materials);
+  /// Computes the texels of patterns: not before the bytes of all that is read have been counted, as they may take
+  /// long.
+  void make_patterns();
 
-  /// Counts bytes of textures. Error(limit) naming `node` before memory for them is taken.
-  void take(uint64_t bytes, const json::Node& node);
+  /// Counts bytes of textures. Error(limit) naming `node` before memory for them is taken. `when`: whether it is taken
+  /// now.
+  enum class When : uint8_t { now, later };
+  void take(uint64_t bytes, const json::Node& node, When when = When::now);
   void count(uint64_t bytes) { bytes_ += bytes; }  ///< of textures that others have read within what was left
   uint64_t bytes() const { return bytes_; }
 
@@ -66,7 +72,9 @@ class MaterialReader {
   const SceneFolder& folder_;
   const SceneLimits& limits_;
   const ImageDecoder& decode_;
-  uint64_t bytes_ = 0;  ///< of all levels
+  uint64_t bytes_ = 0;                                       ///< of all levels
+  uint64_t awaited_ = 0;                                     ///< of those that are not made yet
+  std::vector<std::pair<size_t, TexturePattern>> patterns_;  ///< of textures of the scene; not made yet
   std::map<std::string, int32_t, std::less<>> named_;
 };
 

@@ -106,6 +106,11 @@ Grid read_grid(const json::Node& node) {
   return grid;
 }
 
+uint64_t copies_of(const Grid& grid) {
+  const uint64_t layer = uint64_t(grid.count[0]) * grid.count[1];  // at most 2^48
+  return layer > UINT64_MAX / grid.count[2] ? UINT64_MAX : layer * grid.count[2];
+}
+
 /// Place of one copy; draws five numbers.
 Placement copy_place(const Grid& grid, const uint32_t (&cell)[3], Pcg32& random) {
   Placement copy;
@@ -139,10 +144,30 @@ void ObjectReader::read_materials(const json::Node& list) {
 
 void ObjectReader::read_objects(const json::Node& list) {
   const size_t count = list.array(0, SIZE_MAX).size();
+  check_grids(list);
   for (size_t i = 0; i < count; ++i) read_object(list.element(i));
 }
 
-void ObjectReader::bake_texture_coordinates() {
+/// Refuses grids that are over the limits together before the first copy is made. An object draws at least one mesh.
+void ObjectReader::check_grids(const json::Node& list) const {
+  const size_t count = list.array(0, SIZE_MAX).size();
+  uint64_t instances = 0, bytes = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const json::Node object = list.element(i);
+    const auto grid = object.find("grid");
+    const uint64_t copies = grid ? copies_of(read_grid(*grid)) : 1;
+    if (copies > limits_.instances - std::min(limits_.instances, instances))
+      (grid ? *grid : object)
+          .fail("the objects are over the limit", within_limit(limits_.instances, "", "--max-instances"),
+                ErrorKind::limit);
+    instances += copies;
+    bytes += copies * (kDrawnInstanceBytes + (object.find("steps") ? sizeof(MovingInstance) : 0));
+    if (grid) require_memory(bytes, path_ + ": " + grid->pointer(), "drawing the objects");
+  }
+}
+
+void ObjectReader::finish() {
+  surfaces_.make_patterns();
   uv_sources_.resize(scene_.materials.size());
   uint64_t bytes = 0;
   bake_uv(scene_, uv_sources_, [&](uint64_t more) {
@@ -195,13 +220,15 @@ void ObjectReader::add(const Instance& instance, const Placement& copy, std::opt
 void ObjectReader::add_grid(const json::Node& node, std::vector<Instance> instances, std::optional<uint32_t> motion,
                             const ObjectMotion& placed) {
   const Grid grid = read_grid(node);
-  const uint64_t copies = uint64_t(grid.count[0]) * grid.count[1];  // below 2^48
-  const uint64_t room = limits_.instances - std::min<uint64_t>(limits_.instances, scene_.instances.size());
-  if (copies > room || copies * grid.count[2] > room / std::max<size_t>(instances.size(), 1))
+  const uint64_t copies = copies_of(grid), here = scene_.instances.size(),
+                 room = limits_.instances - std::min(limits_.instances, here);
+  if (copies > room / std::max<size_t>(instances.size(), 1))
     node.fail("the objects are over the limit", within_limit(limits_.instances, "", "--max-instances"), ErrorKind::limit);
-  require_memory(copies * grid.count[2] * instances.size() * kDrawnInstanceBytes, path_ + ": " + node.pointer(),
+  const uint64_t more = copies * instances.size();
+  require_memory(more * (kDrawnInstanceBytes + (motion ? sizeof(MovingInstance) : 0)), path_ + ": " + node.pointer(),
                  "drawing the objects");
-  scene_.instances.reserve(scene_.instances.size() + size_t(copies * grid.count[2] * instances.size()));
+  scene_.instances.reserve(size_t(here + more));
+  if (motion) scene_.timeline.instances.reserve(scene_.timeline.instances.size() + size_t(more));
   Pcg32 random(grid.seed, 10);
   uint32_t cell[3];
   for (cell[2] = 0; cell[2] < grid.count[2]; ++cell[2])

@@ -31,8 +31,8 @@ class ObjectReader {
   void read_textures(const json::Node& list) { surfaces_.read_textures(list); }
   void read_materials(const json::Node& list);
   void read_objects(const json::Node& list);
-  /// After the last object.
-  void bake_texture_coordinates();
+  /// After the last object: texels of patterns, and texture coordinates.
+  void finish();
 
  private:
   /// A mesh that an object draws, with the material that its file gives it, if any.
@@ -41,6 +41,7 @@ class ObjectReader {
     std::optional<uint32_t> material;
   };
 
+  void check_grids(const json::Node& list) const;
   void read_object(const json::Node& node);
   void add(const Instance& instance, const Placement& copy, std::optional<uint32_t> motion, const ObjectMotion& placed);
   void add_grid(const json::Node& grid, std::vector<Instance> instances, std::optional<uint32_t> motion,

@@ -106,7 +106,7 @@ Scene scene_from_json(std::string_view text, const std::string& path, const Scen
     if (const auto textures = root.find("textures")) objects.read_textures(*textures);
     if (const auto materials = root.find("materials")) objects.read_materials(*materials);
     if (const auto list = root.find("objects")) objects.read_objects(*list);
-    objects.bake_texture_coordinates();
+    objects.finish();
   }
   const auto camera = root.find("camera");
   if (camera) {

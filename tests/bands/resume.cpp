@@ -91,11 +91,39 @@ TEST_CASE("A picture begins anew where what is there is not of it, torn, or part
   REQUIRE_FALSE(go_on(picture, "other", Resume::no, 3, before));
   REQUIRE(go_on(picture, "same", Resume::yes, -1, before));
   CHECK(before == 0);
+}
 
-  // A part that lacks what the note speaks of is an error: the disk has lost it.
-  REQUIRE_FALSE(go_on(picture, "same", Resume::no, 3, before));
-  std::filesystem::resize_file(picture.files[0] + ".part", 50);
-  CHECK_THROWS_AS(go_on(picture, "same", Resume::yes, -1, before), Error);
+TEST_CASE("One flipped bit of what lies on disk, or a part that is shorter, begins a picture anew", "[bands]") {
+  const Scene scene = builtin_scene("sphere");
+  const PreparedScene prepared(scene);
+  const ScratchFolder folder;
+  LargePicture picture = city_picture(prepared, 100, 300);
+  picture.aovs = {"depth"};
+  picture.files = {folder.path("a.png"), folder.path("a.exr")};
+  int before = 0;
+  REQUIRE(go_on(picture, "same", Resume::no, -1, before));
+  const std::string whole[] = {content(picture.files[0]), content(picture.files[1])};
+  for (size_t file = 0; file < 2; ++file) {
+    const std::string name = std::filesystem::path(picture.files[file]).filename().string() + ".part";
+    REQUIRE_FALSE(go_on(picture, "same", Resume::no, 3, before));
+    const std::string left = content(folder.path(name));
+    int anew = 0;
+    for (size_t step = left.size() / 20, at = 0; at <= left.size(); at += step) {
+      INFO(name << ", byte " << at << " of " << left.size());
+      REQUIRE_FALSE(go_on(picture, "same", Resume::no, 3, before));
+      std::string damaged = left;
+      if (at + step <= left.size())
+        damaged[at] = char(damaged[at] ^ 4);
+      else
+        damaged.pop_back();
+      folder.write(name, damaged);
+      REQUIRE(go_on(picture, "same", Resume::yes, -1, before));
+      anew += before == 0;
+      CHECK((content(picture.files[0]) == whole[0]));
+      CHECK((content(picture.files[1]) == whole[1]));
+    }
+    CHECK(anew > 10);
+  }
 }
 
 TEST_CASE("A picture whose bands came without planes goes on, unless the hashes of planes are asked for", "[bands]") {
@@ -155,7 +183,7 @@ TEST_CASE("Two processes do not write one part", "[bands]") {
 }
 
 TEST_CASE("Notes come back as they were, and texts that are none do not", "[bands]") {
-  ProgressNote note{"abc", 640, "00ff", {"11", "22"}, {{100, 5, 77}, {3, 2, 1}}, {1, 2, 3}};
+  ProgressNote note{"abc", 640, "00ff", {"11", "22"}, {{100, 5, 77, 6, 9}, {3, 2, 1, 8, 4}}, {1, 2, 3}};
   const std::string text = text_of(note);
   const std::optional<ProgressNote> read = note_of(text);
   REQUIRE(read);

@@ -268,15 +268,26 @@ TEST_CASE("A file of jobs that is wrong is refused in one line that names the pl
                R"({"name":"b","run":["render","builtin:red","-o","./x.png"]})"),
           "/jobs/1/run: the job 'b' writes ./x.png, as the job 'a' does");
   const std::string many = R"(["1","2","3","4","5","6","7","8","9","0"])";
-  batch.folder.write("jobs.json", list(R"({"name":"{a}{b}{c}{d}{e}{f}{g}","run":["info","builtin:red"],"for":{"a":)" +
-                                       many + R"(,"b":)" + many + R"(,"c":)" + many + R"(,"d":)" + many + R"(,"e":)" +
-                                       many + R"(,"f":)" + many + R"(,"g":)" + many + "}}"));
+  batch.folder.write("jobs.json",
+                     list(R"({"name":"{a}{b}{c}{d}{e}","run":["info","builtin:red"],"for":{"a":)" + many + R"(,"b":)" +
+                          many + R"(,"c":)" + many + R"(,"d":)" + many + R"(,"e":)" + many + "}}"));
   check_refused(batch.run(), 4, "/jobs/0/for: this makes more jobs than the limit");
   std::string circle;
   for (const char* names : {"a after b", "b after c", "c after a", "d after a"})
     circle += std::string(circle.empty() ? "" : ",") + R"({"name":")" + names[0] +
               R"(","run":["info","builtin:red"],"after":[")" + names[8] + "\"]}";
   refused(list(circle), "jobs wait for each other: a after b after c after a");
+}
+
+TEST_CASE("The journal of a batch is not opened through a link") {
+  const Batch batch;
+  batch.write({job("a", {"info", "builtin:red"})});
+  batch.folder.write("elsewhere/mine", "mine");
+  std::filesystem::create_symlink("elsewhere/mine", batch.folder.path("jobs.json.state"));
+  check_refused(batch.run(), 5, "jobs.json.state: cannot open it");
+  std::ifstream file(batch.folder.path("elsewhere/mine"));
+  std::string text;
+  CHECK((std::getline(file, text) && text == "mine"));
 }
 
 TEST_CASE("JUnit and the page say what the table says, and a full disk takes no result") {

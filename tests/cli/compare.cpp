@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/image_files/image_io.h"
+#include "scenes/scene.h"
 #include "tests/catch.hpp"
 #include "tests/cli/engine_capture.h"
 #include "tests/cli/refused.h"
@@ -214,6 +215,52 @@ TEST_CASE("where the reference carries its scene, pictures are judged by it, and
   says(run_compare(folder, {"ref.png", "test.png"}), "not judged  ");
 }
 
+TEST_CASE(
+    "a picture's metadata opens no file out of its folder and the working one, and quotes none that is no scene") {
+  const ScratchFolder folder;
+  const std::string secret = R"({"the_secret_key": 1})", scene = R"({"version": 1, "objects": [{"mesh": "cube"}]})";
+  folder.write("secret.json", secret);
+  folder.write("outside.json", scene);
+  folder.write("work/secret.json", secret);
+  folder.write("pictures/beside.json", scene);
+  std::filesystem::create_symlink(folder.path("outside.json"), folder.path("work/link.json"));
+  const auto said_of = [&](const Metadata& named) {
+    Metadata metadata = {{"trueshade:scene", "builtin:cornell"},
+                         {"trueshade:sceneHash", "sha256:0"},
+                         {"trueshade:pipeline", R"({"width": 8, "height": 8})"}};
+    for (const auto& [key, value] : named)
+      std::erase_if(metadata, [&key](const auto& entry) { return entry.first == key; });
+    metadata.insert(metadata.end(), named.begin(), named.end());
+    Image image(8, 8, Format::rgba8);
+    write_image(folder.path("pictures/ref.png"), image, {}, metadata);
+    image.texels[0] = 9;
+    write_image(folder.path("pictures/test.png"), image, {}, {});
+    const Outcome outcome =
+        run_command({"compare", "../pictures/ref.png", "../pictures/test.png", "-o", "page.html"}, folder.path("work"));
+    CHECK(outcome.exit_code == 1);
+    CHECK((outcome.out + outcome.err + content_of(folder.path("work/page.html"))).find("the_secret_key") ==
+          std::string::npos);
+    return outcome;
+  };
+  for (const std::string& name : {folder.path("outside.json"), std::string("../outside.json"), std::string("link.json"),
+                                  std::string("/dev/stdin"), std::string(".."), std::string()})
+    says(said_of({{"trueshade:scene", name}}), "not judged  the reference's scene: there is no " + name);
+  for (const std::string& name : {std::string("secret.json"), folder.path("work/secret.json")})
+    says(said_of({{"trueshade:scene", name}}), "secret.json is no scene that can be drawn");
+  for (const std::string& name : {std::string("beside.json"), folder.path("pictures/beside.json")})
+    says(said_of({{"trueshade:scene", name}}), "beside.json is another scene today");
+  const std::string cornell = "sha256:" + scene_hash(load_scene("builtin:cornell"));
+  const auto gbuffer = [&](const std::string& files, const std::string& map) {
+    return said_of({{"trueshade:sceneHash", cornell},
+                    {"trueshade:gbuffer", files},
+                    {"trueshade:gbufferHash", "x"},
+                    {"trueshade:gbufferMap", map}});
+  };
+  says(gbuffer("../outside.json", ""), "it is neither here nor beside it");
+  says(gbuffer("secret.json", "@../outside.json"), "it is neither here nor beside it");
+  says(gbuffer("secret.json", "@secret.json"), "what it names is no G-buffer");
+}
+
 TEST_CASE("values that are stored otherwise pass by the judge where OpenGL lets them, though equality would fail") {
   const ScratchFolder folder;
   const auto render = [&](const std::string& half_round, const std::string& output) {
@@ -384,6 +431,30 @@ TEST_CASE("compare --accept makes test pictures references, byte by byte, and th
   CHECK(content_of(folder.path("ref/extra.exr")) == content_of(folder.path("test/extra.exr")));
   std::filesystem::remove(folder.path("ref/missing.exr"));
   CHECK(run_compare(folder, {"ref", "test"}).exit_code == 0);
+}
+
+TEST_CASE("compare --accept writes through no link, neither of a picture nor of a folder") {
+  const ScratchFolder folder;
+  write_folders(folder);
+  const std::string test = content_of(folder.path("test/b/differs.exr"));
+  folder.write("elsewhere/differs.exr", "mine");
+  folder.write("elsewhere/kept.exr", "mine");
+  std::filesystem::remove_all(folder.path("ref/b"));
+  std::filesystem::create_directory_symlink("../elsewhere", folder.path("ref/b"));
+  std::filesystem::create_symlink("elsewhere/kept.exr", folder.path("link.exr"));
+  const Outcome folders = run_compare(folder, {"ref", "test", "--accept"});
+  CHECK(folders.exit_code == 3);
+  says(folders, "no picture is accepted through a link");
+  CHECK(content_of(folder.path("elsewhere/differs.exr")) == "mine");
+  CHECK(content_of(folder.path("ref/extra.exr")) == content_of(folder.path("test/extra.exr")));
+  std::filesystem::remove(folder.path("elsewhere/kept.exr"));
+  for (const char* made : {"link.exr", "ref/link.exr"}) {
+    std::filesystem::remove(folder.path(made));
+    std::filesystem::create_symlink(folder.path("elsewhere/kept.exr"), folder.path(made));
+    check_refused(run_compare(folder, {made, "test/extra.exr", "--accept"}), 3,
+                  "no picture is accepted through a link");
+    CHECK_FALSE(std::filesystem::exists(folder.path("elsewhere/kept.exr")));
+  }
 }
 
 TEST_CASE("compare --accept takes no picture that is not finite or damaged, replaces a damaged reference, and makes a first one") {

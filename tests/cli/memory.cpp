@@ -30,8 +30,8 @@ struct Run {
   double mib = 0;
 };
 
-Run measured(const Arguments& arguments, const ScratchFolder& folder) {
-  std::string line = "cd '" + folder.path("") + "' && '" PEAK_MEMORY "' '" TRUESHADE_COMMAND "'";
+Run measured(const Arguments& arguments, const ScratchFolder& folder, const std::string& input = "true") {
+  std::string line = "cd '" + folder.path("") + "' && " + input + " | '" PEAK_MEMORY "' '" TRUESHADE_COMMAND "'";
   for (const std::string& argument : arguments) line += " '" + argument + "'";
   const int status = std::system((line + " >'" + folder.path("out") + "' 2>'" + folder.path("err") + "'").c_str());
   const auto content = [&](const char* name) {
@@ -112,6 +112,59 @@ TEST_CASE("small files that would take gigabytes are refused early, by the name 
   check_refused_early({"info", "black.png"}, folder, 4, "--max-expansion");
 }
 
+TEST_CASE("standard input takes its own size and a chunk's, and is refused where that is over a limit") {
+  const ScratchFolder folder;
+  constexpr double kChunk = 64, kRest = 16;  // MiB
+  const auto sent = [&](int mib, const Arguments& limits) {
+    Arguments arguments{"render", "-", "--hash"};
+    arguments.insert(arguments.end(), limits.begin(), limits.end());
+    const Run run = measured(arguments, folder, "head -c " + std::to_string(mib) + "M /dev/zero");
+    CAPTURE(run.mib, run.outcome.err);
+    return run;
+  };
+  const Run whole = sent(300, {});
+  check_refused(whole.outcome, 3, "its first bytes are neither of JSON nor of glTF, GLB or PLY");
+  CHECK(whole.mib > 300);
+  CHECK(whole.mib < mib_of_start() + 300 + kChunk + kRest);
+  const Run over_file = sent(600, {"--max-file", "300M"});
+  check_refused(over_file.outcome, 4, "more bytes come than the limit");
+  CHECK(over_file.mib < mib_of_start() + 300 + kChunk + kRest);
+  const Run over_memory = sent(600, {"--max-memory", "300M"});
+  check_refused(over_memory.outcome, 4, "raise --max-memory");
+  CHECK(over_memory.mib < 300 + kRest);
+}
+
+/// Refused in one line, within a second of CPU time.
+void check_refused_without_work(const Arguments& arguments, const ScratchFolder& folder, const std::string& about) {
+  check_refused(run_command(arguments, folder.path(""), "ulimit -t 1"), 4, about);
+}
+
+TEST_CASE("what a short file asks for is added up before the first of it is made") {
+  const ScratchFolder folder;
+  const auto pattern = [](const std::string& name) {
+    return R"({"name": ")" + name + R"(", "pattern": {"type": "noise", "format": "rgba32f", "size": [16384, 8192]}})";
+  };
+  const std::string eye = R"({"version": 1, "camera": {"eye": [0, 1, 5]}, )";
+  folder.write("patterns.json",
+               eye + R"("textures": [)" + pattern("a") + "," + pattern("b") + "," + pattern("c") + "]}");
+  check_refused_without_work({"render", "patterns.json", "--hash", "--max-memory", "32G"}, folder,
+                             "patterns.json: /textures/2/pattern: with its 2147483648 bytes the textures are over");
+  check_refused_without_work({"render", "patterns.json", "--hash", "--max-memory", "3G"}, folder,
+                             "patterns.json: /textures/1/pattern: the texture needs 4096 MiB");
+  folder.write("levels.json",
+               eye + R"("textures": [)" + pattern("a") + "," + pattern("b").replace(0, 0, "") +
+                   R"(], "materials": [{"name": "m", "color": [1, 1, 1], "color_map": {"texture": "a"}}]})");
+  check_refused_without_work({"render", "levels.json", "--hash", "--max-memory", "32G"}, folder,
+                             "levels.json: /materials:");
+  const std::string grid = R"({"mesh": "cube", "grid": {"count": [4096, 4096, 1], "spacing": 1})",
+                    steps = R"(, "steps": [{"time": 0, "position": [0, 0, 0]}, {"time": 1, "position": [1, 0, 0]}])";
+  folder.write("grids.json", R"({"version": 1, "objects": [)" + grid + "}," + grid + "}]}");
+  check_refused_without_work({"info", "grids.json"}, folder,
+                             "grids.json: /objects/1/grid: the objects are over the limit");
+  folder.write("moving.json", R"({"version": 1, "objects": [)" + grid + steps + "}]}");
+  check_refused_without_work({"info", "moving.json", "--max-memory", "6G"}, folder, "moving.json: /objects/0/grid:");
+}
+
 /// A glTF file of a triangle that is drawn as `rest` says.
 std::string triangle_gltf(const std::string& accessors, const std::string& rest) {
   return R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,)"
@@ -188,7 +241,7 @@ TEST_CASE("an EXR whose lengths are beyond its bytes is refused before OpenEXR s
   refused(start + "note" + '\0' + "string" + '\0' + little(0x7fffffff) + "short", 3, "longer than the file");
   refused(start + attribute("preview", "preview", little(0x4000) + little(0x8000)), 3, "preview");
   refused(start + attribute("ids", "idmanifest", little(0x7fffffff) + "x"), 3, "manifest");
-  refused(start + channels + compression + attribute("dataWindow", "box2i", window(0x7fffffff)) + '\0', 4, "65536");
+  refused(start + channels + compression + attribute("dataWindow", "box2i", window(0x7fffffff)) + '\0', 4, "1048576");
   refused(start + channels + compression + attribute("dataWindow", "box2i", window(60000)) + '\0', 3,
           "the EXR ends before its pixels do");
   refused(start + channels + '\0', 3, "no channels, window or compression");
@@ -397,40 +450,6 @@ TEST_CASE("whichever allocation is the last, and none succeeds after it, the com
   CHECK(drawn > 0);
   CHECK(refused > 10);
 #endif
-}
-
-TEST_CASE("threads that the system does not start are done without, and a library that needs them is named") {
-  if (geteuid() != 0 ||
-      std::system("setpriv --reuid 54321 --clear-groups '" TRUESHADE_COMMAND "' list >/dev/null 2>&1") != 0) {
-    WARN("SKIPPED: holding another user to a number of processes needs root and setpriv");
-    return;
-  }
-  const ScratchFolder folder;
-  std::filesystem::permissions(folder.path(""), std::filesystem::perms::all);
-  REQUIRE(run_command({"render", "builtin:cornell", "--size", "32x32", "-o", "x.exr"}, folder.path("")).exit_code == 0);
-  const auto run = [&](const std::string& arguments, int processes) {
-    const std::string line =
-        "cd '" + folder.path("") + "' && setpriv --reuid 54321 --clear-groups bash -c 'ulimit -u " +
-        std::to_string(processes) + "; exec \"" TRUESHADE_COMMAND "\" " + arguments + "' >out 2>err";
-    return WEXITSTATUS(std::system(line.c_str()));
-  };
-  const std::string hash = run_command({"render", "builtin:cornell", "--size", "300x300", "--hash"}).out;
-  std::string line;
-  for (int processes = 1; processes <= 9; ++processes) {
-    CAPTURE(processes);
-    CHECK(run("render builtin:cornell --size 300x300 --hash --threads 8", processes) == 0);
-    std::ifstream out(folder.path("out"));
-    REQUIRE(std::getline(out, line));
-    CHECK(hash == line + "\n");
-  }
-  for (int processes = 1; processes <= 4; ++processes) {  // the library's initializers need more
-    CAPTURE(processes);
-    CHECK(run("info x.exr", processes) == 6);
-    std::ifstream err(folder.path("err"));
-    REQUIRE(std::getline(err, line));
-    CHECK(line.starts_with("trueshade: error: threads: "));
-    CHECK_FALSE(std::getline(err, line));
-  }
 }
 
 }  // namespace

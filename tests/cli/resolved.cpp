@@ -90,6 +90,26 @@ TEST_CASE("numbers and times are the same whatever rounding mode a library has l
   CHECK(said("down") == usual);
 }
 
+TEST_CASE("no command minds traps or rounding that a library has left the process, also before main") {
+  const ScratchFolder folder;
+  for (const char* scene : {"cornell", "city"})
+    run_command({"render", "builtin:" + std::string(scene), "--size", "40x30", "-o", scene + std::string(".png")},
+                folder.path(""));
+  for (const Arguments& arguments : {Arguments{"--version"}, Arguments{"render", "builtin:cornell", "--hash"},
+                                     Arguments{"compare", "cornell.png", "city.png", "--flip", "0.01", "--json"}}) {
+    const Outcome usual = run_command(arguments, folder.path(""));
+    CHECK(usual.exit_code < 2);
+    for (const char* way : {"traps", "up", "down"}) {
+      CAPTURE(arguments.front(), way);
+      const Outcome outcome =
+          run_command(arguments, folder.path(""),
+                      std::string("export TRUESHADE_ROUNDING=") + way + " LD_PRELOAD='" ROUNDS_OTHERWISE "'");
+      CHECK(outcome.exit_code == usual.exit_code);
+      CHECK(outcome.out == usual.out);
+    }
+  }
+}
+
 TEST_CASE("info --resolved prints each float of a scene so that it reads back to the bit") {
   const ScratchFolder folder;
   for (const char* spec : {"builtin:cornell", "builtin:cornell,lights=40,seed=7"}) {

@@ -6,9 +6,11 @@
 #include <atomic>
 #include <mutex>
 #include <random>
+#include <system_error>
 #include <thread>
 
 #include "core/error.h"
+#include "farm/failures.h"
 #include "farm/messages.h"
 #include "tests/catch.hpp"
 #include "tests/farm/local_ranks.h"
@@ -559,6 +561,14 @@ TEST_CASE("messages come back as they were, and bytes that are none are told") {
     for (int change = 0; change < 3; ++change) hostile[random() % hostile.size()] = uint8_t(random());
     if (const auto read = unpacked(hostile)) CHECK(packed(*read).size() == hostile.size());
   }
+}
+
+TEST_CASE("A rank that has no more threads says so, and is out of memory") {
+  const auto kind_of = [](std::errc error) {
+    return failure_text(std::make_exception_ptr(std::system_error(std::make_error_code(error)))).kind;
+  };
+  CHECK(kind_of(std::errc::resource_unavailable_try_again) == int32_t(ErrorKind::out_of_memory));
+  CHECK(kind_of(std::errc::no_such_file_or_directory) == 0);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // Whatever happens to a cache file, the picture is the right one, or there is one error that names the file.
 #include <fstream>
+#include <functional>
 #include <iterator>
 
 #include "core/error.h"
@@ -86,6 +87,29 @@ TEST_CASE("a cache file that is cut off, longer, empty or something else is made
   damage.draw(whole + whole), ++files;
   damage.draw(std::string(whole.size(), '\0')), ++files;
   CHECK(damage.tally.read_anew == files);
+}
+
+TEST_CASE("a cache file with right checksums that names a mesh, a material or a texture beyond its own is bad input") {
+  const auto kind_of = [](const std::function<void(Scene&)>& forge) {
+    const ScratchFolder cache;
+    const auto load = [&forge] {
+      Scene scene = load_scene("builtin:atrium");
+      forge(scene);
+      return scene;
+    };
+    try {
+      cached_scene(cache.path(""), "builtin:atrium", {}, load);
+    } catch (const Error& error) {
+      return int(error.kind());
+    }
+    return 0;
+  };
+  CHECK(kind_of([](Scene&) {}) == 0);
+  const int bad_input = int(ErrorKind::bad_input);
+  CHECK(kind_of([](Scene& scene) { scene.instances[0].mesh = uint32_t(scene.meshes.size()); }) == bad_input);
+  CHECK(kind_of([](Scene& scene) { scene.instances[0].material = uint32_t(scene.materials.size()); }) == bad_input);
+  CHECK(kind_of([](Scene& scene) { maps_of(scene.materials[0])[0]->texture = int32_t(scene.textures.size()); }) ==
+        bad_input);
 }
 
 }  // namespace

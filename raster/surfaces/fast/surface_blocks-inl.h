@@ -123,7 +123,7 @@ struct BlockInterpolation {
     for (int k = 0; k < 3; ++k) {
       const uint32_t vertex = vertices.vertex[k];
       const float* const record = vertex_at(seen.record.data(), vertex).value;
-      const float* const rest = vertex_at(seen.rest.data(), vertex).value;
+      const float* const rest = wanted.rest() ? vertex_at(seen.rest.data(), vertex).value : nullptr;
       for (int c = 0; c < wanted.last; ++c)
         value[wanted.stream[c]][k] = c < VertexRecord::kValues ? record[c] : rest[c - VertexRecord::kValues];
     }

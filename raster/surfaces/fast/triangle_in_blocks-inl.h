@@ -47,6 +47,7 @@ struct WantedValues {
   const int* stream;
 
   uint32_t bits() const { return (1u << last) - (1u << first); }
+  bool rest() const { return last > VertexRecord::kValues; }
 };
 
 /// Weights of vertices 1 and 2 at the pixels of a block.
@@ -167,7 +168,7 @@ struct TriangleInBlocks : TriangleAttributes<float> {
       sy[k] = (x[b] - x[a]) * 256.0;
     }
     set_corners(in.record.data(), vertex, 0, VertexRecord::kValues);
-    if (wanted.last > VertexRecord::kValues)
+    if (wanted.rest())
       set_corners(in.rest.data(), vertex, VertexRecord::kValues, VertexRest::kValues);
     sort(wanted);
   }

@@ -31,6 +31,7 @@ struct alignas(16) VertexRest {
 };
 
 /// Vertices are named by four times their index, so that the address of each of their records is one addition away.
+/// There must be records: without any, `first` is null, and there is nothing that a reference could name.
 inline constexpr uint32_t kVertexStep = 4;
 template <class T>
 const T& vertex_at(const T* first, size_t vertex) {
