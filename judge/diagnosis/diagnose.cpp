@@ -141,7 +141,8 @@ std::vector<KnownFault> known_faults() {
   for (const auto table : {picture_value_faults(), light_faults()})
     for (const PictureFault& f : table)
       faults.push_back({listed_name(f.name, f.form()), "picture", listed_text(f.text, f.form())});
-  for (const auto table : {plane_faults(), redraw_faults(), object_faults(), camera_faults(), material_faults()})
+  for (const auto table :
+       {plane_faults(), gloss_faults(), redraw_faults(), object_faults(), camera_faults(), material_faults()})
     for (const PlaneFault& f : table)
       faults.push_back(
           {listed_name(f.name, f.form()), std::string(kPlaneNames[size_t(f.plane)]), listed_text(f.text, f.form())});

@@ -61,6 +61,15 @@ ExpectedPixel ExpectedPlanes::made(int x, int y_top) const {
         [k](PlaneValues& v) -> double& { return v.albedo[k]; });
   }
   put(values.base_color(3, g.albedo.interpolation), [](PlaneValues& v) -> double& { return v.albedo[3]; });
+  const auto base = [&](size_t k) { return values.base_color(int(k), g.albedo.interpolation); };
+  for (size_t k = 0; k < 3 && reads_specular_plane(pipeline_.light_model); ++k)
+    put(values.specular(base(k), int(k)), [k](PlaneValues& v) -> double& { return v.specular[k]; });
+  for (size_t k = 0; k < 3 && pipeline_.light_model.emission; ++k)
+    put(values.emission(base(k), int(k)), [k](PlaneValues& v) -> double& { return v.emission[k]; });
+  put(values.shininess(), [](PlaneValues& v) -> double& { return v.specular[3]; });
+  // Another format stands in where there is no fourth channel.
+  put(info(g.emission).channels > 3 ? values.ambient_share() : Range{1, 1, 1},
+      [](PlaneValues& v) -> double& { return v.emission[3]; });
   for (size_t k = 0; k < 2; ++k)
     put(values.attribute(kUv + k, g.uv.interpolation), [k](PlaneValues& v) -> double& { return v.uv[k]; });
   return out;

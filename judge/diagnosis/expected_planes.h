@@ -18,6 +18,7 @@ struct PlaneValues {
   std::array<double, 3> position{}, normal{};
   std::array<double, 4> albedo{};
   std::array<double, 2> uv{};
+  std::array<double, 4> specular{}, emission{};  ///< with the shininess, and with the share of ambient light
 };
 
 /// The likeliest values, and both ends of what is legal.

@@ -139,11 +139,15 @@ void PictureCase::heal_surface(int x, int y, PlainSurface& surface) const {
     return held_value(of_plane, value, channel);
   };
   const GBufferState& g = pipeline_.gbuffer;
+  if (wrong_[size_t(Plane::specular)]) surface.shininess = v.specular[3];
+  if (wrong_[size_t(Plane::emission)]) surface.ambient_share = held(g.emission, v.emission[3], 3);
   const bool halved = info(g.normal.format).number_class == NumberClass::unorm;
   for (int i = 0; i < 4; ++i) {
     const auto k = size_t(i);
     if (wrong_[size_t(Plane::albedo)]) surface.albedo[k] = held(g.albedo.format, v.albedo[k], i);
     if (i == 3) continue;
+    if (wrong_[size_t(Plane::specular)]) surface.specular[k] = held(g.specular, v.specular[k], i);
+    if (wrong_[size_t(Plane::emission)]) surface.emission[k] = held(g.emission, v.emission[k], i);
     if (wrong_[size_t(Plane::position)]) surface.position[k] = held(g.position.format, v.position[k], i);
     if (!wrong_[size_t(Plane::normal)]) continue;
     const double n = held(g.normal.format, halved ? v.normal[k] * 0.5 + 0.5 : v.normal[k], i);

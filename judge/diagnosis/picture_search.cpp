@@ -21,8 +21,9 @@ constexpr double kLeastChanged = 8;                      ///< pixels below which
 constexpr double kNearOne = 0.015;                       ///< factors that change values by about a code
 constexpr double kLeftByFew = 0.25, kLeftByTwo = 0.175;  ///< of what disagrees, that such a factor may leave
 constexpr size_t kFirstOfPairs = 5, kFinalists = 8;
-constexpr double kFarOff = 1.5;  ///< steps, beyond what sums in another order and estimates leave
-constexpr size_t kFew = 3;       ///< pixels so far off that may be by chance
+constexpr double kFarOff = 1.5;        ///< steps, beyond what sums in another order and estimates leave
+constexpr double kByEstimates = 0.05;  ///< where a light ends by an estimate pixels are far off
+constexpr size_t kFew = 3;             ///< pixels so far off that may be by chance
 
 struct Candidate {
   std::vector<NamedFault> faults;
@@ -179,7 +180,13 @@ double PictureSearch::left(std::span<const NamedFault> faults) const {
   size_t pixels = 0;
   for (size_t i = 0; i < now.size(); ++i)
     if (now[i] > kFarOff) weight += picture_.sample()[i].weight, ++pixels;
-  return pixels < kFew ? 0 : weight / changed_;
+  const auto estimated = [](const NamedFault& f) {
+    const Search s = f.fault->search;
+    return s == Search::smooth || s == Search::vector || s == Search::one_light;
+  };
+  const bool by_chance =
+      pixels < kFew || (weight < kByEstimates * changed_ && std::any_of(faults.begin(), faults.end(), estimated));
+  return by_chance ? 0 : weight / changed_;
 }
 
 /// The fault with those that come before it.

@@ -25,6 +25,10 @@ double number_of(const PlaneValues& v, Plane plane, int channel) {
       return v.albedo[k];
     case Plane::uv:
       return k < 2 ? v.uv[k] : k == 3 && v.covered ? 1 : 0;
+    case Plane::specular:
+      return v.specular[k];
+    case Plane::emission:
+      return v.emission[k];
     case Plane::object:
       return v.object;
     default:
@@ -43,7 +47,10 @@ PlaneCase::PlaneCase(const Scene& scene, const Pipeline& pipeline, const Profile
       context_(plane_context(scene_, pipeline_)),
       right_(std::make_shared<ExpectedPlanes>(scene, pipeline_, profile_, capture.drawn_at)) {
   for (size_t i = 0; i < kPlanes; ++i) {
+    const LightModel& model = pipeline_.light_model;
     if (Plane(i) == Plane::position && pipeline_.gbuffer.position_from_depth) continue;
+    if (Plane(i) == Plane::specular && !reads_specular_plane(model)) continue;
+    if (Plane(i) == Plane::emission && !model.emission) continue;
     views_[i] = plane_of(capture, pipeline_, kPlaneNames[i]);
   }
   std::vector<PixelUse> uses(stage.classes.size());
@@ -127,6 +134,7 @@ double PlaneCase::channel_off(Plane plane, const ExpectedPixel& p, double reach,
   if (!view.unorm()) {
     const double size = std::max(std::fabs(value), std::fabs(given));
     unit = plane == Plane::position ? extent_ * 0x1p-20 : plane == Plane::depth ? 0x1p-22 : 0x1p-20;
+    if (plane == Plane::specular || plane == Plane::emission) unit *= std::max(1.0, size);
     if (view.layout.number_class == NumberClass::integer) unit = 1;
     if (view.layout.small_float()) unit = std::ldexp(1.0, std::max(size > 0 ? std::ilogb(size) : -14, -14) - 10);
     room = view.layout.small_float() ? 1.01 : 0.4;
@@ -143,7 +151,10 @@ void mix_numbers(PlaneValues& out, const PlaneValues& a, const PlaneValues& b, c
   for (size_t k = 0; k < 3; ++k) {
     out.position[k] = mix(a.position[k], b.position[k]), out.normal[k] = mix(a.normal[k], b.normal[k]);
   }
-  for (size_t k = 0; k < 4; ++k) out.albedo[k] = mix(a.albedo[k], b.albedo[k]);
+  for (size_t k = 0; k < 4; ++k) {
+    out.albedo[k] = mix(a.albedo[k], b.albedo[k]), out.specular[k] = mix(a.specular[k], b.specular[k]);
+    out.emission[k] = mix(a.emission[k], b.emission[k]);
+  }
   for (size_t k = 0; k < 2; ++k) out.uv[k] = mix(a.uv[k], b.uv[k]);
 }
 
@@ -222,7 +233,7 @@ PlaneValues PlaneCase::given(int x, int y) const {
       numbers[k] = number(plane, int(k));
   };
   fill(Plane::position, v.position), fill(Plane::normal, v.normal), fill(Plane::albedo, v.albedo);
-  fill(Plane::uv, v.uv);
+  fill(Plane::uv, v.uv), fill(Plane::specular, v.specular), fill(Plane::emission, v.emission);
   if (views_[size_t(Plane::depth)]) v.depth = number(Plane::depth, 0);
   if (views_[size_t(Plane::material)]) v.material = number(Plane::material, 0);
   v.object = views_[size_t(Plane::object)] ? number(Plane::object, 0) : -1;

@@ -12,10 +12,10 @@
 namespace trueshade::oracle {
 
 /// The planes that are compared, as captures name them; `all` stands for every one.
-enum class Plane : uint8_t { depth, position, normal, albedo, uv, object, material, all };
-inline constexpr size_t kPlanes = 7;
-inline constexpr std::string_view kPlaneNames[] = {"depth", "position",  "normal",      "albedo",
-                                                   "uv",    "id.object", "id.material", "G-buffer"};
+enum class Plane : uint8_t { depth, position, normal, albedo, uv, object, material, specular, emission, all };
+inline constexpr size_t kPlanes = 9;
+inline constexpr std::string_view kPlaneNames[] = {"depth",     "position",    "normal",   "albedo",   "uv",
+                                                   "id.object", "id.material", "specular", "emission", "G-buffer"};
 
 /// What an encoding reads beside the pixel's numbers.
 struct PlaneContext {
@@ -82,6 +82,7 @@ struct PlaneFault {
 };
 
 std::span<const PlaneFault> plane_faults();     ///< plane_faults.cpp: encodings and moves
+std::span<const PlaneFault> gloss_faults();     ///< gloss_faults.cpp: encodings of what materials reflect and emit
 std::span<const PlaneFault> redraw_faults();    ///< redraw_faults.cpp: states and scenes
 std::span<const PlaneFault> object_faults();    ///< object_faults.cpp: one object, its matrix and its triangles
 std::span<const PlaneFault> camera_faults();    ///< camera_faults.cpp

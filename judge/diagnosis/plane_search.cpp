@@ -126,7 +126,7 @@ std::vector<Candidate> PlaneSearch::beside(const PlaneSupposition& base, bool re
       if (best) candidates.push_back(std::move(*best));
     }
   };
-  tries(plane_faults());
+  tries(plane_faults()), tries(gloss_faults());
   // A redraw costs far more than another encoding, so planes that an encoding explains are not drawn again.
   const auto explained = [](const Candidate& c) { return c.cost < kExplained; };
   const auto needs_more = [&] { return redraw && std::none_of(candidates.begin(), candidates.end(), explained); };
@@ -256,7 +256,9 @@ PlaneSearch::Share PlaneSearch::share(const PlaneSupposition& supposed, Plane pl
     (was ? same : out.changed) += weight;
     if (!was && is) out.explained += weight;
     if (was && !is) out.contradicted += weight;
-    if (!is && !edges && is_far_off(now[i], off_[i], plane)) out.left += weight;
+    const SampledPixel& p = planes_.sample()[i];  // what an encoding makes of where nothing is drawn is left open
+    if (!is && !edges && is_far_off(now[i], off_[i], plane) && planes_.expected(p.x, p.y).value.covered)
+      out.left += weight;
   }
   if (out.changed > 0) out.explained /= out.changed, out.left /= out.changed;
   if (same > 0) out.contradicted /= same;

@@ -190,7 +190,7 @@ SupposedFaults supposed_faults(std::span<const std::string> names, const Scene& 
     const std::string* text = given ? &after : nullptr;
     const auto* picture = fault_named<PictureFault>(bare, {picture_value_faults(), light_faults()});
     const auto* plane = fault_named<PlaneFault>(
-        bare, {plane_faults(), redraw_faults(), object_faults(), camera_faults(), material_faults()});
+        bare, {plane_faults(), gloss_faults(), redraw_faults(), object_faults(), camera_faults(), material_faults()});
     const auto* glass = fault_named<GlassFault>(bare, {glass_faults()});
     if (!add_supposed(out.picture, picture, scene, text, name) && !add_supposed(out.planes, plane, scene, text, name) &&
         !add_supposed(out.glass, glass, scene, text, name))

@@ -57,6 +57,11 @@ TEST_CASE("Maps that are read wrongly are named") {
   check_all({"a normal map's green turned", "a normal map decoded as sRGB", "one object's colour"});
 }
 
+TEST_CASE("Planes of what materials reflect and emit that are encoded wrongly are named") {
+  check_all({"specular colours encoded as sRGB", "specular colours as BGR", "specular colours with a gain",
+             "shininess in the plane off", "emission encoded as sRGB", "emission with a gain"});
+}
+
 TEST_CASE("An anisotropic filter that is left on is named, not as a bias of levels") {
   check_all({"an anisotropic filter left on"});
 }

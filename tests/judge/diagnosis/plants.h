@@ -9,5 +9,6 @@ const std::vector<Plant>& plants_of_scenes();
 const std::vector<Plant>& plants_of_lights();
 const std::vector<Plant>& plants_of_materials();
 const std::vector<Plant>& plants_of_filters();
+const std::vector<Plant>& plants_of_gloss();
 
 }  // namespace trueshade::testing
