@@ -216,7 +216,17 @@ class CodeBlend {
       operands_[0][k] = {s.low, s.high};
       operands_[1][k] = {stored[k].low, stored[k].high};
       operands_[2][k] = {c.low, c.high};
+      chance_[k] = s.second_chance;
     }
+  }
+
+  /// At most so likely is it that a source is converted to another code than the nominal one.
+  double chance(const BlendTerm& term, size_t k) const {
+    const auto reads_alpha = [](BlendFactor f) {
+      return f == BlendFactor::src_alpha || f == BlendFactor::one_minus_src_alpha ||
+             f == BlendFactor::src_alpha_saturate;
+    };
+    return std::min(1.0, chance_[k] + (k != 3 && (reads_alpha(term.src) || reads_alpha(term.dst)) ? chance_[3] : 0));
   }
 
   Span blended(const BlendTerm& term, size_t k) const {
@@ -262,7 +272,15 @@ class CodeBlend {
   const Profile& profile_;
   const bool exact_;
   std::array<Span, 4> operands_[3];  ///< source, destination, constant
+  std::array<double, 4> chance_{};   ///< of another code of the source
 };
+
+/// Any code of `sum`, where a source is another one by `chance`.
+LegalTexel texel_of_codes(const Span& sum, double nominal, double chance) {
+  LegalTexel t{std::clamp(nominal, sum.low, sum.high), sum.low, sum.high, 0, 0};
+  if (t.low < t.high) t.second_chance = chance, t.second_side = t.high > t.nominal ? 1 : -1;
+  return t;
+}
 
 /// Codes added, whatever the rule: what is stored is exact, so the sum is any legal code of the source's more.
 LegalTexel added_code(const LegalTexel& stored, const LegalTexel& source, double largest) {
@@ -313,7 +331,8 @@ Texel likely_texel(const BlendState& state, Format format, const Profile& profil
   std::array<Range, 4> loose = source;
   const FormatInfo layout = info(format);
   for (size_t k = 0; k < 4 && state.enabled && layout.small_float(); ++k) {
-    // One float more or less, as a fused or truncated sum has it; none where a source above 0 is lost in the sum anyway.
+    // One float more or less, as a fused or truncated sum has it; none where a source above 0 is lost in the sum
+    // anyway.
     const double ulp = 0x1p-23 * std::max(std::fabs(source[k].value), std::fabs(stored[k].nominal));
     Range& s = loose[k];
     if (s.low < s.high && (s.low - ulp > 0 || s.high < 0)) s.low -= ulp, s.high += ulp;
@@ -359,8 +378,9 @@ Texel blended_texel(const BlendState& state, Format format, const Profile& profi
   const Profile nearest = float_once(profile);
   const ValueBlend values(state, format, profile, source, stored);
   const ValueBlend middle(state, format, nearest, middles(source), middles(stored));
-  std::optional<CodeBlend> codes;
+  std::optional<CodeBlend> codes, middle_codes;
   if (fixed) codes.emplace(state, format, profile, source, stored);
+  if (fixed) middle_codes.emplace(state, format, profile, middles(source), middles(stored));
   for (size_t k = 0; k < size_t(layout.channels); ++k) {
     const BlendTerm& term = term_of(k);
     if (!state.mask[k] || (in_codes(k) && term == kAccumulate)) continue;
@@ -370,8 +390,7 @@ Texel blended_texel(const BlendState& state, Format format, const Profile& profi
     if (!in_codes(k) || profile.blend == BlendRule::float_once) continue;
     const Span sum = codes->blended(term, k);
     if (multiplies_codes(profile, layout))
-      out[k] = {std::clamp(out[k].nominal, sum.low, sum.high), sum.low, sum.high, out[k].second_chance,
-                out[k].second_side};
+      out[k] = texel_of_codes(sum, middle_codes->blended(term, k).low, codes->chance(term, k));
     else
       out[k].low = std::min(out[k].low, sum.low), out[k].high = std::max(out[k].high, sum.high);
   }

@@ -348,7 +348,8 @@ void BlendingJudge::judge(int x, int y, int light, const Image* before, const Im
     Match m;
     if (fits(list[i], view, x, y, m)) {
       m.choices.clear();
-      if (list.size() == 1) choose(x, y, from, known, blend, view, m);  // else another way may be the one that was gone
+      if (list.size() == 1 && known.size() == fragments.size())  // else another way may be the one that was gone
+        choose(x, y, from, known, blend, view, m);
       const PixelClass c =
           list[i].pixel_class == PixelClass::exact && m.second ? PixelClass::store_2 : list[i].pixel_class;
       return keep(x, y, c, m, light);

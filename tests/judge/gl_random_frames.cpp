@@ -45,6 +45,14 @@ TEST_CASE("Maps and glass of llvmpipe's that are off alike on few places of a fr
   for (const uint64_t seed : {2644, 2918}) check_llvmpipe(FrameTheme::any, seed, 1);
 }
 
+TEST_CASE("Where a surface that says nothing may have been lit too, llvmpipe's stores are no evidence") {
+  check_llvmpipe(FrameTheme::clamped_depths, 2256, 1);
+}
+
+TEST_CASE("Codes that llvmpipe subtracts are as often others as their sources are") {
+  check_llvmpipe(FrameTheme::sloped_depths, 2635, 1);
+}
+
 TEST_CASE("Of two thousand frames of llvmpipe's under states drawn at random none is convicted", "[long]") {
   check_llvmpipe(FrameTheme::any, long_first(1000), long_count(2000));
   for (const FrameTheme theme : kThemes) check_llvmpipe(theme, long_first(1000), long_count(2000) / 10);
