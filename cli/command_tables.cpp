@@ -9,6 +9,7 @@ CommandTables::CommandTables() {
   tables_.push_back(glsl_table(glsl_, glsl_texts_));
   tables_.push_back(export_table(export_, export_time_));
   tables_.push_back(validate_table(validation_, validation_texts_));
+  tables_.push_back(probe_table(probe_));
   tables_.push_back(shade_table(shade_, shade_texts_));
   tables_.push_back(explain_table(explain_, explain_texts_));
   tables_.push_back(view_table(view_, view_texts_));

@@ -11,6 +11,7 @@ CommandTable list_table(ListOptions& options);
 CommandTable glsl_table(GlslFilesOptions& options, GlslTexts& texts);
 CommandTable export_table(ExportOptions& options, std::optional<std::string>& time);
 CommandTable validate_table(ValidationOptions& options, ValidationTexts& texts);
+CommandTable probe_table(ProbeOptions& options);
 CommandTable shade_table(ShadeOptions& options, ShadeTexts& texts);
 CommandTable explain_table(ExplainOptions& options, ExplainTexts& texts);
 CommandTable view_table(ViewOptions& options, ViewTexts& texts);
@@ -43,6 +44,7 @@ class CommandTables {
   std::optional<std::string> export_time_;
   ValidationOptions validation_;
   ValidationTexts validation_texts_;
+  ProbeOptions probe_;
   ShadeOptions shade_;
   ShadeTexts shade_texts_;
   ExplainOptions explain_;

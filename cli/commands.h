@@ -22,13 +22,14 @@ void bench(const BenchOptions& options);
 void bench_ranks(const BenchOptions& options);  ///< `bench --ranks`; on every rank
 void shade(const ShadeOptions& options);
 void explain(const ExplainOptions& options);
-void view(const ViewOptions& options);  ///< becomes another program, or throws
+void view(const ViewOptions& options);                ///< becomes another program, or throws
 int compare_pictures(const CompareOptions& options);  ///< `compare`; the exit code
 int run_batch(const BatchOptions& options);           ///< `batch`; the exit code
 void write_man_pages(const ManOptions& options);
 void print_completion(const CompletionOptions& options);
 void print_version(const VersionOptions& options);
 bool judge_opengl(const ValidationOptions& options);  ///< `validate`; whether every pixel is explained
+bool probe_driver(const ProbeOptions& options);       ///< `probe`; whether held-out frames are explained
 
 /// Names of the faults that `validate` looks for; none in a program that has no judge.
 std::vector<std::string> fault_names();

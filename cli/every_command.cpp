@@ -25,6 +25,7 @@ int execute(const Command& command) {
   if (const auto* options = std::get_if<ViewOptions>(&command)) view(*options);
   if (const auto* options = std::get_if<BenchOptions>(&command)) bench(*options);
   if (const auto* options = std::get_if<ValidationOptions>(&command)) return judge_opengl(*options) ? 0 : kViolation;
+  if (const auto* options = std::get_if<ProbeOptions>(&command)) return probe_driver(*options) ? 0 : kViolation;
   if (const auto* options = std::get_if<CompareOptions>(&command)) return compare_pictures(*options);
   if (const auto* options = std::get_if<BatchOptions>(&command)) return run_batch(*options);
   if (const auto* options = std::get_if<VersionOptions>(&command)) print_version(*options);

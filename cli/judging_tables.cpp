@@ -17,6 +17,11 @@ void add_validate_output(CommandTable& table, ValidationOptions& options) {
   add_quiet(table, options, "Print the verdict alone; say neither progress nor which files were written");
 }
 
+void add_driver(CommandTable& table, std::optional<std::string>& driver) {
+  add_choice(table, "--driver", "NAME", driver,
+             "Driver to open: default, llvmpipe or softpipe of OpenGL, vulkan, or lavapipe", kDriverNames);
+}
+
 void add_criteria(CommandTable& table, CompareOptions& options, CompareTexts& texts) {
   table.open_group = "Criteria";
   add_value(table, "--max-difference", "D", texts.difference,
@@ -64,10 +69,11 @@ CommandTable validate_table(ValidationOptions& options, ValidationTexts& texts) 
       "--map says; may be repeated (docs/captures.md)");
   add_mask(table, texts.mask);
   table.open_group = "Judgement";
-  add_choice(table, "--driver", "NAME", options.driver,
-             "Driver to open: default, llvmpipe or softpipe of OpenGL, vulkan, or lavapipe", kDriverNames);
-  add_choice(table, "--profile", "NAME", options.held_to,
-             "Hold the driver to this profile instead of what OpenGL promises of any:", oracle::kDriverProfileNames);
+  add_driver(table, options.driver);
+  add_choice(table, "--profile", "NAME|FILE", options.held_to,
+             "Hold the driver to this profile instead of what OpenGL promises of any: a file .json that `trueshade "
+             "probe` wrote, or",
+             oracle::kDriverProfileNames);
   add_value(table, "--subpixel-bits", "COUNT", texts.subpixel_bits,
             "Fractional bits of the driver's window coordinates, 4 to 16; else what it says, 4 for a capture");
   add_switch(table, "--quick", options.quick,
@@ -93,6 +99,28 @@ CommandTable validate_table(ValidationOptions& options, ValidationTexts& texts) 
       {"trueshade validate scene.json --gbuffer capture.exr", "What another renderer drew elsewhere."}};
   table.see_also = {"explain", "compare", "shade"};
   table.finished = [&options, &texts]() -> Command { return finished(std::move(options), texts); };
+  return table;
+}
+
+CommandTable probe_table(ProbeOptions& options) {
+  CommandTable table{"probe", "Measure what a driver does where OpenGL lets it choose, as a profile for validate"};
+  table.open_group = "Output";
+  add_value(table, "-o,--output", "FILE", options.output, "Profile to write, .json, for validate --profile FILE");
+  add_value(table, "--name", "NAME", options.name, "Name of the profile; without it the driver's own");
+  add_switch(table, "--json", options.json, "Print all of it as one JSON document");
+  add_quiet(table, options, "Print the verdict alone; say neither progress nor which files were written");
+  table.open_group = "Driver";
+  add_driver(table, options.driver);
+  table.details =
+      "Small frames are drawn, and for each field of a profile the tightest value is found that no frame speaks "
+      "against. What the frames cannot tell stays as open as OpenGL leaves it. Then other frames are judged by the "
+      "profile.\n"
+      "Exit codes: 0 the profile explains these, 1 it does not, 7 there is no driver; others as for trueshade.";
+  table.examples = {
+      {"trueshade probe --driver llvmpipe -o profile.json", "A profile of Mesa's llvmpipe, as it is here."},
+      {"trueshade validate scene.json --profile profile.json", "The same driver, held to that."}};
+  table.see_also = {"validate"};
+  table.finished = [&options]() -> Command { return finished(std::move(options)); };
   return table;
 }
 

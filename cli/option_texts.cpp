@@ -178,6 +178,24 @@ ExportOptions finished(ExportOptions options, const std::optional<std::string>& 
   return options;
 }
 
+namespace {
+
+void check_driver(const std::optional<std::string>& driver) {
+  if (driver && std::find(std::begin(kDriverNames), std::end(kDriverNames), *driver) == std::end(kDriverNames))
+    throw unknown_name("--driver", "there is no driver", *driver, kDriverNames);
+}
+
+}  // namespace
+
+ProbeOptions finished(ProbeOptions options) {
+  check_driver(options.driver);
+  if (!options.output.empty() && !has_ending(options.output, ".json"))
+    throw usage("-o", "a profile is not written to '" + options.output + "'", "end the name in .json");
+  if (options.name && options.name->empty())
+    throw usage("--name", "the name is empty", "say what the driver is called");
+  return options;
+}
+
 ValidationOptions finished(ValidationOptions options, const ValidationTexts& texts) {
   options.mask = mask_rules_of(texts.mask);
   if (texts.size) options.size = size_from_text(*texts.size);
@@ -187,14 +205,13 @@ ValidationOptions finished(ValidationOptions options, const ValidationTexts& tex
   if (texts.subpixel_bits) options.subpixel_bits = integer_in("--subpixel-bits", *texts.subpixel_bits, 4, 16);
   if (texts.significance) options.significance = chance_from_text("--significance", *texts.significance);
   check_preset(options.preset);
-  if (options.driver &&
-      std::find(std::begin(kDriverNames), std::end(kDriverNames), *options.driver) == std::end(kDriverNames))
-    throw unknown_name("--driver", "there is no driver", *options.driver, kDriverNames);
+  check_driver(options.driver);
   check_capture(options.capture);
   if (options.driver && options.capture.given())
     throw usage("--driver", "a capture is judged, no driver is opened", "leave out --driver or --gbuffer");
   constexpr auto& kProfiles = oracle::kDriverProfileNames;
-  if (options.held_to && std::find(kProfiles.begin(), kProfiles.end(), *options.held_to) == kProfiles.end())
+  if (options.held_to && !has_ending(*options.held_to, ".json") &&
+      std::find(kProfiles.begin(), kProfiles.end(), *options.held_to) == kProfiles.end())
     throw unknown_name("--profile", "there is no profile", *options.held_to, kProfiles);
   if (!options.capture.given() && !options.capture.image_file.empty())
     throw usage("--image", "a picture alone cannot be judged", "add --gbuffer FILE.exr, the planes it was lit from");

@@ -82,6 +82,7 @@ InfoOptions finished(InfoOptions options, const InfoTexts& texts);
 GlslFilesOptions finished(GlslFilesOptions options, const GlslTexts& texts);
 ExportOptions finished(ExportOptions options, const std::optional<std::string>& time);
 ValidationOptions finished(ValidationOptions options, const ValidationTexts& texts);
+ProbeOptions finished(ProbeOptions options);
 ShadeOptions finished(ShadeOptions options, const ShadeTexts& texts);
 ExplainOptions finished(ExplainOptions options, const ExplainTexts& texts);
 BenchOptions finished(BenchOptions options, const BenchTexts& texts);

@@ -117,7 +117,7 @@ struct GlslFilesOptions : PipelineOptions {  // `scene` may be empty
 /// `trueshade validate`: what OpenGL draws here, or a capture made elsewhere, against the sets of legal values.
 struct ValidationOptions : PipelineOptions {
   std::optional<std::string> driver;   ///< default, llvmpipe, softpipe, vulkan or lavapipe; none of a capture
-  std::optional<std::string> held_to;  ///< what profile to hold the driver to; nothing: what OpenGL promises of any
+  std::optional<std::string> held_to;  ///< a profile's name or file, .json; nothing: what OpenGL promises of any
   double time = 0.0;                   ///< seconds of the scene's timeline
   std::optional<int> subpixel_bits;    ///< of the driver's grid; nothing: what it says, 4 for a capture
   CaptureOptions capture;              ///< empty: draw one here
@@ -128,6 +128,14 @@ struct ValidationOptions : PipelineOptions {
   bool lenient = false;                ///< what the tests of the whole image find is no failure
   double significance = 1e-6;          ///< of these tests: how many legal images may fail them
   std::vector<std::string> supposed;   ///< names of faults, as diagnose() takes them
+  bool json = false;
+};
+
+/// `trueshade probe`: what a driver does where OpenGL or Vulkan lets it choose, as a profile.
+struct ProbeOptions : CommonOptions {
+  std::optional<std::string> driver;  ///< one of kDriverNames
+  std::string output;                 ///< the profile's file, .json; empty: none
+  std::optional<std::string> name;    ///< of the profile; nothing: the driver's
   bool json = false;
 };
 
@@ -208,9 +216,10 @@ struct PrintText {
   std::string text;
 };
 
-using Command = std::variant<RenderOptions, InfoOptions, ListOptions, GlslFilesOptions, ExportOptions,
-                             ValidationOptions, BenchOptions, ShadeOptions, ExplainOptions, CompareOptions, ViewOptions,
-                             BatchOptions, VersionOptions, ManOptions, CompletionOptions, PrintText>;
+using Command =
+    std::variant<RenderOptions, InfoOptions, ListOptions, GlslFilesOptions, ExportOptions, ValidationOptions,
+                 ProbeOptions, BenchOptions, ShadeOptions, ExplainOptions, CompareOptions, ViewOptions, BatchOptions,
+                 VersionOptions, ManOptions, CompletionOptions, PrintText>;
 
 /// Reads a command line, and checks all of it that needs no file. Error(usage) naming the option; Error(limit) for a
 /// size over 65,536 pixels a side.

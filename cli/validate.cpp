@@ -22,6 +22,8 @@
 #include "core/image_files/image_io.h"
 #include "core/image_files/picture_file.h"
 #include "core/printable_text.h"
+#include "judge/bounds/profile_file.h"
+#include "scenes/files/content/scene_files.h"
 #include "scenes/pipeline/fit_lights.h"
 #include "scenes/scene.h"
 
@@ -36,13 +38,16 @@ double timed(Job job) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-bool names_vulkan(const ValidationOptions& options) {
-  return options.driver && (*options.driver == "vulkan" || *options.driver == "lavapipe");
+/// Of a name that is known, or of a file.
+oracle::Profile profile_of(const std::string& held_to) {
+  if (const auto known = oracle::profile_named(held_to)) return *known;
+  constexpr uint64_t kMostBytes = uint64_t(1) << 16;
+  const Bytes bytes = read_user_file(held_to, kMostBytes, "");
+  return oracle::profile_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, held_to);
 }
 
 DriverFrame draw_here(const ValidationOptions& options, const Scene& scene, Validation& v) {
-  DriverFrame frame = names_vulkan(options) ? drawn_by_vulkan_device(*options.driver == "lavapipe", scene, v.pipeline)
-                                            : drawn_by_driver(options.driver.value_or("default"), scene, v.pipeline);
+  DriverFrame frame = drawn_by(options.driver, scene, v.pipeline);
   v.capture = std::move(frame.capture);
   v.passes = std::move(frame.passes);
   v.timed_frames = frame.timed_frames;
@@ -146,8 +151,8 @@ bool judge_opengl(const ValidationOptions& options) {
   fit_lights_of_ours(scene, v.pipeline.light_model);
   if (files && !options.size) v.pipeline.width = files->width(), v.pipeline.height = files->height();
   check_memory(scene, v.pipeline, {}, {}, judging_memory(options, v.pipeline));
-  if (names_vulkan(options)) v.profile = *oracle::profile_named("vulkan");
-  if (options.held_to) v.profile = *oracle::profile_named(*options.held_to);
+  if (names_vulkan(options.driver)) v.profile = *oracle::profile_named("vulkan");
+  if (options.held_to) v.profile = profile_of(*options.held_to);
   if (options.subpixel_bits) v.profile.subpixel_bits = *options.subpixel_bits;
   v.scene_notes = notes_of(scene, v.pipeline);
   if (v.pipeline.post.active())

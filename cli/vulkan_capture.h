@@ -1,4 +1,7 @@
 #pragma once
+#include <optional>
+#include <string>
+
 #include "cli/driver_capture.h"
 
 namespace trueshade {
@@ -6,5 +9,16 @@ namespace trueshade {
 /// As drawn_by_driver(), by Vulkan: by a CPU's device (`--driver lavapipe`), or by the first that there is. Throws
 /// Error(no_gl_driver) where there is none, and always in a build without Vulkan.
 DriverFrame drawn_by_vulkan_device(bool software, const Scene& scene, const Pipeline& pipeline);
+
+/// Whether `--driver` names Vulkan.
+inline bool names_vulkan(const std::optional<std::string>& driver) {
+  return driver && (*driver == "vulkan" || *driver == "lavapipe");
+}
+
+/// By whichever `--driver` names; by OpenGL's default without it.
+inline DriverFrame drawn_by(const std::optional<std::string>& driver, const Scene& scene, const Pipeline& pipeline) {
+  return names_vulkan(driver) ? drawn_by_vulkan_device(*driver == "lavapipe", scene, pipeline)
+                              : drawn_by_driver(driver.value_or("default"), scene, pipeline);
+}
 
 }  // namespace trueshade

@@ -1,0 +1,17 @@
+#pragma once
+// A profile as a file: JSON that `trueshade probe` writes and `validate --profile FILE` reads.
+#include <string>
+#include <string_view>
+
+#include "judge/bounds/profile.h"
+
+namespace trueshade::oracle {
+
+/// All fields of a profile in a fixed order, a line each: equal profiles are equal texts.
+std::string profile_json(const Profile& profile);
+
+/// Fields that the text does not give are those of `unknown`. Error(bad_input) with a JSON pointer behind `where`, for
+/// unknown keys and values out of range too.
+Profile profile_from_json(std::string_view text, std::string_view where);
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,49 @@
+#pragma once
+// A driver's profile, measured: for each field of a profile the tightest value that no frame of the driver's speaks
+// against.
+#include <string>
+#include <vector>
+
+#include "judge/bounds/profile.h"
+#include "judge/probe/probe_frames.h"
+#include "oracle/capture.h"
+
+namespace trueshade::oracle {
+
+/// What the driver made of a plan.
+struct ProbeFrame {
+  const ProbePlan* plan = nullptr;
+  Capture capture;
+  LightSteps steps;  ///< of strategies that blend
+};
+
+/// What was found of a field, or of fields that go together.
+struct ProbedField {
+  enum class State : uint8_t {
+    told,     ///< the value holds in every frame, and a tighter one, or the other ones, do not
+    open,     ///< several values that exclude each other hold, or one holds that nobody can have: stays unknown
+    refuted,  ///< no value holds: the driver does something that the judge has no word for
+  };
+  std::string field, value;  ///< as the profile's file spells them; the value of `unknown` where it is not told
+  State state = State::open;
+  int tried = 0;        ///< values
+  std::string against;  ///< the frame that speaks against the next tighter value; empty where there is none
+};
+
+struct ProbeResult {
+  Profile profile;
+  std::vector<ProbedField> fields;
+  std::vector<std::string> set_aside;  ///< frames that no OpenGL may have drawn: nothing is learnt of these
+};
+
+/// Some hundred judgements of the frames, which are small: a minute of one core.
+ProbeResult probe_profile(const std::vector<ProbeFrame>& frames, const std::string& name);
+
+/// A held-out frame under a profile.
+struct ProbeCheck {
+  std::string frame;
+  uint64_t pixels = 0, exact = 0, violations = 0;  ///< of all stages
+};
+ProbeCheck check_profile(const ProbeFrame& frame, const Profile& profile);
+
+}  // namespace trueshade::oracle

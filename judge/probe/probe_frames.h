@@ -1,0 +1,22 @@
+#pragma once
+// Frames that tell what a driver does where OpenGL lets it choose.
+#include <string>
+#include <vector>
+
+#include "scenes/pipeline/pipeline.h"
+#include "scenes/scene.h"
+
+namespace trueshade::oracle {
+
+/// A frame to be drawn by the driver that is probed.
+struct ProbePlan {
+  std::string name;  ///< `shards into rgba16f`
+  Scene scene;
+  Pipeline pipeline;
+};
+
+/// Frames that are probed (`seed` 1) or held out (others): the same kinds of frames, of other triangles, texels and
+/// lights. 96x72 pixels each.
+std::vector<ProbePlan> probe_plans(uint64_t seed);
+
+}  // namespace trueshade::oracle
