@@ -1,5 +1,7 @@
 #pragma once
 // The ways in which the fragments of one light's draw may take a pixel from one texel to the next.
+#include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,7 +15,10 @@ namespace trueshade::oracle {
 struct DrawnFragment {
   LightOutput output;
   int least = 1, most = 1, nominal = 1;
-  PixelClass doubt = PixelClass::edge;  ///< of another number of them than the nominal one
+  PixelClass doubt = PixelClass::edge;           ///< of another number of them than the nominal one
+  std::optional<std::array<Range, 4>> likely{};  ///< what the likely rule draws, where that is another: of clears
+
+  const std::array<Range, 4>& likely_source() const { return likely ? *likely : output.nominal; }
 };
 
 /// How often each fragment was there, and which way a comparison went.

@@ -76,7 +76,7 @@ void BlendingJudge::carry_likely(PixelState& p, const DrawnFragment& f, const Bl
   for (int i = 0; i < f.nominal; ++i) {
     if (sees_thresholds_) see_thresholds(p, f, blend.enabled);
     p.draw_likely(in_floats ? kept_in_floats(f, blend, p.likely)
-                            : likely_texel(blend, color_.image->format, profile_, likely_, f.output.nominal, p.likely),
+                            : likely_texel(blend, color_.image->format, profile_, likely_, f.likely_source(), p.likely),
                   f.output.nominal);
   }
 }

@@ -84,14 +84,20 @@ void BlendingJudge::start(const Image* given) {
   seen_ = given != nullptr;
   if (seen_) before_ = *given;
   const bool drawn = multipass_ ? scene_.lights.empty() : pipeline_.light_volumes.base;
+  const auto cleared = [this](const Profile& by) {
+    std::array<Range, 4> out;
+    for (size_t k = 0; k < 4; ++k)
+      out[k] = cleared_range(double(scene_.clear[int(k)]), color_.image->format, int(k), by);
+    return out;
+  };
   each_row([&](int y) {
     for (int x = 0; x < pipeline_.width; ++x) {
       if (mask_.has(x, y)) continue;
       LightOutput out;
-      for (size_t k = 0; k < 4; ++k)
-        out.nominal[k] = cleared_range(double(scene_.clear[int(k)]), color_.image->format, int(k), profile_);
+      out.nominal = cleared(profile_);
       if (drawn && covered_[at(x, y)] != 0) out = outputs_.start(surfaces_[at(x, y)]);
-      const DrawnFragment only{out, 1, 1, 1, PixelClass::exact};
+      DrawnFragment only{out, 1, 1, 1, PixelClass::exact};
+      if (!drawn || covered_[at(x, y)] == 0) only.likely = cleared(likely_);
       judge(x, y, -1, nullptr, given, {&only, 1}, BlendState{});
     }
   });
@@ -300,7 +306,7 @@ void BlendingJudge::choose(int x, int y, const Texel& before, std::span<const Dr
   p.likely = before;
   for (const DrawnFragment& f : drawn)
     for (int i = 0; i < f.nominal; ++i)
-      p.draw_likely(likely_texel(blend, color_.image->format, profile_, likely_, f.output.nominal, p.likely),
+      p.draw_likely(likely_texel(blend, color_.image->format, profile_, likely_, f.likely_source(), p.likely),
                     f.output.nominal);
   const bool codes_add = view.unorm() && !view.layout.srgb && blend.rgb == kAccumulate;
   for (size_t k = 0; k < size_t(view.channels); ++k) {

@@ -49,6 +49,10 @@ TEST_CASE("Where a surface that says nothing may have been lit too, llvmpipe's s
   check_llvmpipe(FrameTheme::clamped_depths, 2256, 1);
 }
 
+TEST_CASE("Ten bits that llvmpipe cleared are nearest codes, though those that it draws are not") {
+  check_llvmpipe(FrameTheme::glass_in_halves, 1117, 1);
+}
+
 TEST_CASE("Codes that llvmpipe subtracts are as often others as their sources are") {
   check_llvmpipe(FrameTheme::sloped_depths, 2635, 1);
 }

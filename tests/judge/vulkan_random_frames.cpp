@@ -26,7 +26,7 @@ DrawnFrame drawn_by_device(const RandomFrame& frame) {
 }
 
 /// The software device's line; empty where there is none that is judged, and then the test has said SKIPPED.
-/// SwiftShader is not: it interpolates with errors that no float arithmetic has (docs/data/drivers.md).
+/// SwiftShader is not: it interpolates less precisely than float32 does, as it may (docs/data/drivers.md).
 std::string device() {
   try {
     const std::string line = VulkanDevice(true).info().line;
