@@ -79,10 +79,10 @@ void add_glass(std::vector<Finding> glass, std::vector<Finding>& findings) {
 }
 
 /// What was looked for: a fault that leaves most of what is wrong unexplained, or anything far off, is no explanation:
-/// it comes behind those that are. Of two faults at once their share together counts. What is predicted of a picture is
-/// exact, of planes within what interpolation leaves.
+/// it comes behind those that are. Of two faults at once their share together counts. What is predicted of a picture,
+/// or drawn again, is exact, of planes within what interpolation leaves.
 std::vector<Finding> partial_last(std::vector<Finding> findings) {
-  constexpr double kExplanation = 0.5, kOfFitted = 0.75, kLeftOfPicture = 0.005, kLeftOfPlanes = 0.05;
+  constexpr double kExplanation = 0.5, kOfFitted = 0.75, kLeftWhereExact = 0.005, kLeftOfPlanes = 0.05;
   std::vector<Finding> partial, whole;
   for (size_t from = 0; from < findings.size();) {
     size_t end = from + 1;
@@ -91,7 +91,7 @@ std::vector<Finding> partial_last(std::vector<Finding> findings) {
                                     [](const Finding& f) { return f.fitted; });
     const Finding& last = findings[end - 1];
     const bool is_partial = last.explained + last.located < (fitted ? kOfFitted : kExplanation) ||
-                            last.left > (last.plane == "picture" ? kLeftOfPicture : kLeftOfPlanes);
+                            last.left > (last.plane == "picture" || last.drawn_again ? kLeftWhereExact : kLeftOfPlanes);
     for (; from < end; ++from) {
       findings[from].partial = is_partial;
       (is_partial ? partial : whole).push_back(std::move(findings[from]));

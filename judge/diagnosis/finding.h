@@ -23,16 +23,17 @@ struct Proof {
 
 /// A fault that explains pixels which are not what they should be.
 struct Finding {
-  std::string name;         ///< of the fault, with its parameter: `light-range=1.01`; what `--suppose` takes
-  std::string plane;        ///< that is wrong: `picture`, `normal`, ..., or `G-buffer`
-  std::string text;         ///< a sentence without its full stop
-  uint64_t changed = 0;     ///< pixels of the plane that differ from what is predicted of a right renderer, estimated
-  double explained = 0;     ///< the share of these that the fault predicts; of `together`, that both predict
-  double contradicted = 0;  ///< of the pixels that were as predicted, the share that the fault predicts otherwise
-  bool together = false;    ///< the second of two faults: `changed`, `explained` and `contradicted` are of both
-  double alone = 0;         ///< the share that it explains without the other; `explained`, unless `together`
-  bool fitted = false;      ///< its numbers are estimates, so that it can explain much by chance
-  double located = 0;       ///< the share that it says is wrong, and predicts no number of: not in `explained`
+  std::string name;          ///< of the fault, with its parameter: `light-range=1.01`; what `--suppose` takes
+  std::string plane;         ///< that is wrong: `picture`, `normal`, ..., or `G-buffer`
+  std::string text;          ///< a sentence without its full stop
+  uint64_t changed = 0;      ///< pixels of the plane that differ from what is predicted of a right renderer, estimated
+  double explained = 0;      ///< the share of these that the fault predicts; of `together`, that both predict
+  double contradicted = 0;   ///< of the pixels that were as predicted, the share that the fault predicts otherwise
+  bool together = false;     ///< the second of two faults: `changed`, `explained` and `contradicted` are of both
+  double alone = 0;          ///< the share that it explains without the other; `explained`, unless `together`
+  bool drawn_again = false;  ///< what it predicts is drawn with the fault, and exact
+  bool fitted = false;       ///< its numbers are estimates, so that it can explain much by chance
+  double located = 0;        ///< the share that it says is wrong, and predicts no number of: not in `explained`
   double left = 0;    ///< the share that stays far off, as no rounding leaves it; 0 of what is drawn with other edges
   bool tied = false;  ///< no pixel tells it from the finding before it
   bool partial = false;  ///< it leaves so much unexplained that it is no explanation: it may be part of it

@@ -246,7 +246,8 @@ bool PlaneSearch::told_apart(const Candidate& a, const Candidate& b) const {
 PlaneSearch::Share PlaneSearch::share(const PlaneSupposition& supposed, Plane plane) const {
   const PlaneSteps now = off(supposed, planes_.sample(), &off_);
   const bool edges = std::any_of(supposed.faults.begin(), supposed.faults.end(), [](const NamedPlaneFault& f) {
-    return f.fault->redraws() || f.fault->move != nullptr || f.fault->averages;
+    const bool moves_edges = f.fault->redraws() && f.fault->plane == Plane::all;
+    return moves_edges || f.fault->move != nullptr || f.fault->averages;
   });
   Share out;
   double same = 0;
@@ -304,6 +305,7 @@ Finding PlaneSearch::finding(std::span<const NamedPlaneFault> faults, size_t whi
   f.plane = kPlaneNames[size_t(own)];
   f.changed = uint64_t(std::llround(found.changed));
   f.explained = found.explained, f.contradicted = found.contradicted, f.left = found.left;
+  f.drawn_again = fault.fault->redraws();
   f.together = which > 0, f.fitted = fault.fault->is_estimate() || fault.fault->averages;
   f.alone = f.together ? share(supposed({&fault, 1}), own).explained : f.explained;
   f.proof = proof(up_to_it, own, which > 0 ? &before : nullptr);
