@@ -48,7 +48,7 @@ std::string line_of(const ProbedField& field) {
   line.resize(std::max<size_t>(34, line.size() + 1), ' ');
   line += field.state == ProbedField::State::told ? field.value : kOpen[size_t(field.state)];
   if (!field.against.empty())
-    line += std::string(field.state == ProbedField::State::told ? "  (others: not by " : "  (not by ") + field.against +
+    line += (field.state == ProbedField::State::told ? "  (others fail on " : "  (the last fails on ") + field.against +
             ')';
   return line + '\n';
 }
