@@ -7,7 +7,6 @@
 #include "tests/scratch_folder.h"
 
 namespace trueshade {
-using namespace testing;
 
 TEST_CASE("a probed profile explains other frames of its driver, and validate takes its file") {
   const ScratchFolder folder;
@@ -42,7 +41,7 @@ TEST_CASE("profiles and probes that are none are refused in one line") {
   check_refused(run({"probe", "--driver", "nope"}), 2, "there is no driver 'nope'");
   check_refused(run({"probe", "-o", "profile.txt"}), 2, "end the name in .json");
   check_refused(run({"probe", "--name", ""}), 2, "the name is empty");
-  check_refused(run({"validate", "builtin:cornell", "--profile", "absent.json"}), 3, "absent.json");
+  check_refused(run({"validate", "builtin:cornell", "--profile", "absent.json"}), 5, "absent.json");
   folder.write("bits.json", R"({"name": "x", "subpixel_bits": 3})");
   check_refused(run({"validate", "builtin:cornell", "--profile", "bits.json"}), 3, "bits.json: /subpixel_bits");
   folder.write("key.json", R"({"name": "x", "grid": 8})");
