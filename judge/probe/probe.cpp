@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <optional>
 
 #include "judge/stages/judge.h"
 #include "scenes/json/json_value.h"
@@ -25,9 +24,11 @@ struct ProbeValue {
   std::function<void(Profile&)> set;
 };
 
-/// A field, or fields that go together, and what they may be. `exclusive`: values of which none allows all that another
-/// one allows, so that two that hold tell nothing. Otherwise the tightest comes first, each allows what the one before
-/// it allows, and the first is what nobody can have, unless `least_is_real`: where it holds, the frames do not tell.
+/// A field, or fields that go together, and the values that it may have.
+///   exclusive: no value allows all that another value allows. Where two values explain every frame, the field stays
+///     unknown. Otherwise the tightest value comes first, and each value allows all that the value before it allows.
+///   least_is_real: a driver may have the first value. Otherwise no driver has it, and where it explains every frame,
+///     the frames do not tell the field.
 struct ProbeKnob {
   std::string field;
   TellsBy by;
@@ -85,7 +86,7 @@ ProbeKnob numbers(const char* field, TellsBy by, Part Profile::*part, double Par
   return knob;
 }
 
-/// Of a field whose first value allows less than the second and would be refuted by frames made for it.
+/// A field whose values exclude each other.
 template <class Setter>
 ProbeKnob choice(const char* field, TellsBy by, std::initializer_list<std::pair<const char*, Setter>> values) {
   ProbeKnob knob{field, by, true, {}};
@@ -163,16 +164,15 @@ class Probe {
   void tell(const ProbeKnob& knob) {
     ProbedField out{knob.field, "unknown", ProbedField::State::open, 0, {}};
     std::vector<const ProbeValue*> hold;
-    bool is_first = true;
     for (const ProbeValue& value : knob.values) {
       ++out.tried;
       const std::string against = frame_against(knob, value);
       if (against.empty()) hold.push_back(&value);
       if (!against.empty()) out.against = against;
       if (against.empty() && !knob.exclusive) break;
-      is_first = false;
     }
-    const bool told = hold.size() == 1 && (knob.exclusive || !is_first || knob.least_is_real);
+    const bool told =
+        hold.size() == 1 && (knob.exclusive || knob.least_is_real || hold.front() != &knob.values.front());
     if (told) {
       hold.front()->set(known_);
       out.value = hold.front()->text, out.state = ProbedField::State::told;

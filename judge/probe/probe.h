@@ -21,10 +21,10 @@ struct ProbeFrame {
 struct ProbedField {
   enum class State : uint8_t {
     told,     ///< the value holds in every frame, and a tighter one, or the other ones, do not
-    open,     ///< several values that exclude each other hold, or one holds that nobody can have: stays unknown
+    open,     ///< unknown: values that exclude each other hold, or a value holds that no driver has
     refuted,  ///< no value holds: the driver does something that the judge has no word for
   };
-  std::string field, value;  ///< as the profile's file spells them; the value of `unknown` where it is not told
+  std::string field, value;  ///< as the profile's file spells them; the word `unknown` where it is not told
   State state = State::open;
   int tried = 0;        ///< values
   std::string against;  ///< the frame that speaks against the next tighter value; empty where there is none
@@ -36,7 +36,7 @@ struct ProbeResult {
   std::vector<std::string> set_aside;  ///< frames that no OpenGL may have drawn: nothing is learnt of these
 };
 
-/// Some hundred judgements of the frames, which are small: a minute of one core.
+/// Each value of each field is asked of frames until one of them speaks against it: some seconds of one core.
 ProbeResult probe_profile(const std::vector<ProbeFrame>& frames, const std::string& name);
 
 /// A held-out frame under a profile.
