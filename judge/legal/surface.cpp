@@ -169,7 +169,7 @@ Range SurfacePoint::attribute(const VertexAttribute& vertices, Interpolation int
   const bool smooth = interpolation == Interpolation::smooth;
   if (bounded_) {
     if (!smooth && !profile_.exact_planes) return affine(vertices);
-    if (smooth && !smooth_) find_divisors(true, smooth_.emplace());
+    if (smooth && !smooth_) find_divisors(true, smooth_.emplace(Divisors{}));
     if (smooth) return points_ == 1 ? quotient<1>(vertices, *smooth_) : quotient<6>(vertices, *smooth_);
     Divisors divisors;
     find_divisors(false, divisors);

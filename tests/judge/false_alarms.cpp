@@ -106,11 +106,11 @@ TEST_CASE("Of a hundred and fifty images as D3D11.3 has them none is rejected by
 }
 
 TEST_CASE("Of ten thousand legal images at most one is rejected", "[long]") {
-  CHECK(rejected("unknown", 10000, 1000) <= 1);
+  CHECK(rejected("unknown", testing::long_count(10000), testing::long_first(1000)) <= 1);
 }
 
 TEST_CASE("Of ten thousand images as D3D11.3 has them at most one is rejected by its profile", "[long]") {
-  CHECK(rejected("d3d-class", 10000, 1000) <= 1);
+  CHECK(rejected("d3d-class", testing::long_count(10000), testing::long_first(1000)) <= 1);
 }
 
 namespace {

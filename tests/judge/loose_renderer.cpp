@@ -56,7 +56,7 @@ class Drawing {
     if (mode == TransparencyMode::into_albedo) draw_instances(Pass::into_albedo);
     for (int y = 0; y < pipeline_.height; ++y)
       for (int x = 0; x < pipeline_.width; ++x)
-        if (capture_.planes[4].image.value(x, y, 0) != 0) light(x, y);
+        if (covered(x, y) || pipeline_.strategy == Strategy::forward_multipass) light(x, y);
     if (mode == TransparencyMode::after_lights) draw_instances(Pass::over);
     if (free_.sums_in_floats) store_sums();
     return std::move(capture_);
@@ -317,7 +317,7 @@ class Drawing {
         if (!inside(v, area, double(sx), double(sy))) continue;
         const float d = stored_depth(depth, z, sx, sy);
         std::vector<LooseSurface>& tied = tied_[size_t(y) * size_t(pipeline_.width) + size_t(x)];
-        const bool ties = pass == Pass::opaque && d == get(0, x, y, 0) && d < 1;  // EQUAL passes there, LESS does not
+        const bool ties = pass == Pass::opaque && d == get(0, x, y, 0);  // EQUAL passes there, LESS does not
         if (!ties && !(d < get(0, x, y, 0))) continue;
         if (pass == Pass::opaque && !ties) tied.clear();
         if (ties) {
@@ -414,20 +414,25 @@ class Drawing {
 
   void light(int x, int y) {
     const size_t lights = scene_.lights.size();
+    if (!covered(x, y)) return add_tied(x, y);
     const LooseSurface s = read(x, y);
     if (!blends_lights(pipeline_.strategy)) return store_color(x, y, lit(s, 0, lights));
     const bool multipass = pipeline_.strategy == Strategy::forward_multipass;
     const size_t first = multipass && lights > 0 ? 1 : 0;
     if (multipass || pipeline_.light_volumes.base) store_color(x, y, lit(s, 0, first));
-    for (size_t i = first; i < lights; ++i) {
-      if (!multipass) {
-        add_light(x, y, lit(s, i, i + 1).data());
-        continue;
-      }
+    if (multipass) return add_tied(x, y);
+    for (size_t i = first; i < lights; ++i) add_light(x, y, lit(s, i, i + 1).data());
+  }
+
+  /// What the draws of forward-multipass after the first add, whose test is EQUAL: the light of each surface that has the
+  /// pixel's very depth, be it the clear depth.
+  void add_tied(int x, int y) {
+    for (size_t i = 1; i < scene_.lights.size(); ++i)
       for (const LooseSurface& tied : tied_[size_t(y) * size_t(pipeline_.width) + size_t(x)])
         add_light(x, y, lit(tied, i, i + 1).data());
-    }
   }
+
+  bool covered(int x, int y) const { return capture_.planes[4].image.value(x, y, 0) != 0; }
 
   const Scene& scene_;
   const Pipeline& pipeline_;
