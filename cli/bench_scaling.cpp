@@ -112,7 +112,7 @@ std::vector<std::pair<ScalingCurve, std::vector<Step>>> wanted_curves(const std:
                                                                       const Execution& execution) {
   std::vector<int> lights;
   constexpr uint64_t kApart = 3;  // so that the labels of neighbours have room beside each other
-  for (const uint64_t count : {1, 10, 100, 1000, 10000, 100000, 1000000})
+  for (const uint64_t count : std::initializer_list<uint64_t>{1, 10, 100, 1000, 10000, 100000, 1000000})
     if (count > own_lights * kApart || count * kApart < own_lights) lights.push_back(int(count));
   if (own_lights > 0 && own_lights < 1000000) lights.push_back(int(own_lights));
   std::sort(lights.begin(), lights.end());

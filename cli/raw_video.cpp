@@ -35,9 +35,9 @@ std::string raw_video_note(const RenderOptions& options, const RenderedFrame& pi
   const Image& color = picture.frame.color;
   const PngCodes codes(color, file_options(options, picture.pipeline));
   return std::string("raw video: ffmpeg -f rawvideo -pixel_format ") +
-         kPixelFormats[codes.bits() / 8 - 1][codes.channels() - 1] + " -video_size " + std::to_string(color.width) +
-         'x' + std::to_string(color.height) + " -framerate " + json_number(picture.scene.timeline.fps) +
-         " -i - FILE.mp4";
+         kPixelFormats[size_t(codes.bits() / 8 - 1)][size_t(codes.channels() - 1)] + " -video_size " +
+         std::to_string(color.width) + 'x' + std::to_string(color.height) + " -framerate " +
+         json_number(picture.scene.timeline.fps) + " -i - FILE.mp4";
 }
 
 }  // namespace trueshade

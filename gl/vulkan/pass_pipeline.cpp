@@ -48,7 +48,7 @@ VkPipelineColorBlendAttachmentState attachment_of(const BlendState& b) {
   out.dstAlphaBlendFactor = kBlendFactorsOfVulkan[size_t(b.alpha.dst)];
   out.alphaBlendOp = kBlendOps[size_t(b.alpha.equation)];
   for (size_t c = 0; c < 4; ++c)
-    if (b.mask[c]) out.colorWriteMask |= VK_COLOR_COMPONENT_R_BIT << c;
+    if (b.mask[c]) out.colorWriteMask |= uint32_t(VK_COLOR_COMPONENT_R_BIT) << c;
   return out;
 }
 

@@ -76,9 +76,13 @@ TEST_CASE("pictures that fool idiff and FLIP's tool are refused: NaN for 0, Inf 
         for (int c = 0; c < 3; ++c) plane.at(x, 7, c) = value;
     };
   };
-  const std::vector<std::vector<std::string>> criteria = {
-      {}, {"--max-difference", "1e30"}, {"--pixels", "1000000", "--delta", "1"}, {"--flip", "1"}, {"--allow-nonfinite"}};
-  for (const auto& [value, count] : {std::pair(kNan, 1), std::pair(kInf, 1), std::pair(-kInf, 1), std::pair(kNan, 50)}) {
+  const std::vector<std::vector<std::string>> criteria = {{},
+                                                          {"--max-difference", "1e30"},
+                                                          {"--pixels", "1000000", "--delta", "1"},
+                                                          {"--flip", "1"},
+                                                          {"--allow-nonfinite"}};
+  for (const auto& [value, count] :
+       {std::pair(kNan, 1), std::pair(kInf, 1), std::pair(-kInf, 1), std::pair(kNan, 50)}) {
     ScratchFolder folder;
     with_pair(folder, put(value, 3, count));
     for (std::vector<std::string> arguments : criteria) {
@@ -228,8 +232,8 @@ TEST_CASE(
     Metadata metadata = {{"trueshade:scene", "builtin:cornell"},
                          {"trueshade:sceneHash", "sha256:0"},
                          {"trueshade:pipeline", R"({"width": 8, "height": 8})"}};
-    for (const auto& [key, value] : named)
-      std::erase_if(metadata, [&key](const auto& entry) { return entry.first == key; });
+    for (const auto& other : named)
+      std::erase_if(metadata, [&other](const auto& entry) { return entry.first == other.first; });
     metadata.insert(metadata.end(), named.begin(), named.end());
     Image image(8, 8, Format::rgba8);
     write_image(folder.path("pictures/ref.png"), image, {}, metadata);
@@ -264,11 +268,10 @@ TEST_CASE(
 TEST_CASE("values that are stored otherwise pass by the judge where OpenGL lets them, though equality would fail") {
   const ScratchFolder folder;
   const auto render = [&](const std::string& half_round, const std::string& output) {
-    folder.write("pipeline.json", "{\"version\": 1, \"target\": \"rgba16f\", \"gbuffer\": {\"half_round\": \"" +
-                                      half_round + "\"}}");
+    folder.write("pipeline.json",
+                 "{\"version\": 1, \"target\": \"rgba16f\", \"gbuffer\": {\"half_round\": \"" + half_round + "\"}}");
     REQUIRE(run_command({"render", "builtin:cornell", "--size", "64x64", "--pipeline", "pipeline.json", "-o", output,
-                         "--aov",
-                         "depth,position,normal,albedo,uv,id.object,id.material", "-q"},
+                         "--aov", "depth,position,normal,albedo,uv,id.object,id.material", "-q"},
                         folder.path(""))
                 .exit_code == 0);
   };
@@ -383,13 +386,15 @@ TEST_CASE("bad input to compare is one line, and leaves nothing behind") {
 
 namespace {
 
-/// Folders ref and test with pictures in folders within: one that is the same, one that differs, one missing, one extra.
+/// Folders ref and test with pictures in folders within: one that is the same, one that differs, one missing, one
+/// extra.
 void write_folders(const ScratchFolder& folder) {
-  for (const char* name : {"ref/a/same.exr", "test/a/same.exr", "ref/b/differs.exr", "ref/missing.exr", "test/extra.exr",
-                           "test/b/differs.exr", "test/notes.txt"})
+  for (const char* name : {"ref/a/same.exr", "test/a/same.exr", "ref/b/differs.exr", "ref/missing.exr",
+                           "test/extra.exr", "test/b/differs.exr", "test/notes.txt"})
     folder.write(name, "");
   const EnginePlane dark = even_plane(8, 6, 3, 0.25), light = even_plane(8, 6, 3, 0.5);
-  for (const char* name : {"ref/a/same.exr", "test/a/same.exr", "ref/b/differs.exr", "ref/missing.exr", "test/extra.exr"})
+  for (const char* name :
+       {"ref/a/same.exr", "test/a/same.exr", "ref/b/differs.exr", "ref/missing.exr", "test/extra.exr"})
     write_floats(folder.path(name), dark, kRgb);
   write_floats(folder.path("test/b/differs.exr"), light, kRgb);
 }
@@ -420,7 +425,9 @@ TEST_CASE("folders are compared by relative names: one table, the worst first, m
   CHECK(json.at("pictures").at(0).at("name") == "b/differs.exr");
 }
 
-TEST_CASE("compare --accept makes test pictures references, byte by byte, and then the folders pass but for what is missing") {
+TEST_CASE(
+    "compare --accept makes test pictures references, byte by byte, and then the folders pass but for what is "
+    "missing") {
   const ScratchFolder folder;
   write_folders(folder);
   const Outcome outcome = run_compare(folder, {"ref", "test", "--accept"});
@@ -457,7 +464,9 @@ TEST_CASE("compare --accept writes through no link, neither of a picture nor of 
   }
 }
 
-TEST_CASE("compare --accept takes no picture that is not finite or damaged, replaces a damaged reference, and makes a first one") {
+TEST_CASE(
+    "compare --accept takes no picture that is not finite or damaged, replaces a damaged reference, and makes a first "
+    "one") {
   ScratchFolder folder;
   with_pair(folder, [](EnginePlane& plane) { plane.at(2, 3, 1) = kNan; });
   const std::string before = content_of(folder.path("ref.exr"));
