@@ -82,7 +82,7 @@ void add_glass(std::vector<Finding> glass, std::vector<Finding>& findings) {
 /// it comes behind those that are. Of two faults at once their share together counts. What is predicted of a picture,
 /// or drawn again, is exact, of planes within what interpolation leaves.
 std::vector<Finding> partial_last(std::vector<Finding> findings) {
-  constexpr double kExplanation = 0.5, kOfFitted = 0.75, kLeftWhereExact = 0.005, kLeftOfPlanes = 0.05;
+  constexpr double kExplanation = 0.5, kOfFitted = 0.75, kLeftWhereExact = 0.005, kLeftOfPlanes = 0.02;
   std::vector<Finding> partial, whole;
   for (size_t from = 0; from < findings.size();) {
     size_t end = from + 1;
