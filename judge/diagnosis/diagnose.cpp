@@ -82,7 +82,7 @@ void add_glass(std::vector<Finding> glass, std::vector<Finding>& findings) {
 /// it comes behind those that are. Of two faults at once their share together counts. What is predicted of a picture,
 /// or drawn again, is exact, of planes within what interpolation leaves.
 std::vector<Finding> partial_last(std::vector<Finding> findings) {
-  constexpr double kExplanation = 0.5, kOfFitted = 0.75, kLeftWhereExact = 0.005, kLeftOfPlanes = 0.02;
+  constexpr double kExplanation = 0.5, kOfFitted = 0.75, kLeftWhereExact = 0.005, kLeftOfPlanes = 0.05;
   std::vector<Finding> partial, whole;
   for (size_t from = 0; from < findings.size();) {
     size_t end = from + 1;
@@ -90,8 +90,10 @@ std::vector<Finding> partial_last(std::vector<Finding> findings) {
     const bool fitted = std::any_of(findings.begin() + ptrdiff_t(from), findings.begin() + ptrdiff_t(end),
                                     [](const Finding& f) { return f.fitted; });
     const Finding& last = findings[end - 1];
-    const bool is_partial = last.explained + last.located < (fitted ? kOfFitted : kExplanation) ||
-                            last.left > (last.plane == "picture" || last.drawn_again ? kLeftWhereExact : kLeftOfPlanes);
+    const bool is_partial =
+        last.explained + last.located < (fitted ? kOfFitted : kExplanation) ||
+        last.left > (last.plane == "picture" || last.drawn_again ? kLeftWhereExact : kLeftOfPlanes) ||
+        last.astray > kLeftWhereExact;
     for (; from < end; ++from) {
       findings[from].partial = is_partial;
       (is_partial ? partial : whole).push_back(std::move(findings[from]));
