@@ -23,6 +23,8 @@ class LightFit {
       : picture_(picture), supposed_(supposed), fault_(fault), pixels_(pixels), off_(off_if_right) {
     codes_ = info(supposed.pass.pipeline.target).number_class == NumberClass::unorm;
     room_ = codes_ ? 0.5 : info(supposed.pass.pipeline.target).small_float() ? 1 : 0;
+    blends_ =
+        supposed.pass.pipeline.strategy == Strategy::deferred_volumes && supposed.pass.pipeline.blend == kAddLight;
     last_ = supposed.pass.pipeline.light_model.order == TermOrder::albedo_last;
     see_pixels();
   }
@@ -34,27 +36,45 @@ class LightFit {
   struct Seen {
     SampledPixel pixel;
     PlainSurface surface;
-    Color value, given;
+    Color value, given;  ///< value: as a real number, whatever each blend rounds and clamps
     bool changed;
+    std::vector<uint8_t> adds{};  ///< whether each light adds anything, where lights are blended
+    Color held{};                 ///< what the target holds then
   };
   void see_pixels();
+  void add_up(Seen& seen) const;
   Light changed(size_t light, const Triple3& vector) const {
     Light l = supposed_.pass.lights[light];
     fault_.one_light(l, vector);
     return l;
   }
   Color shown(const Seen& seen, const Triple3& more) const;
+  Color afterwards(const Seen& seen, Color value) const;
+  /// A pixel where one light is another: blend by blend, where lights are blended.
+  class Relit {
+   public:
+    Relit(const LightFit& fit, size_t light, const Light& now) : fit_(fit), light_(light), pass_(fit.supposed_.pass) {
+      pass_.lights[light] = now;
+    }
+    Color at(const Seen& seen, const Triple3& more) const;
+
+   private:
+    const LightFit& fit_;
+    size_t light_;
+    LightPass pass_;
+  };
   double size_of(size_t light) const;
   /// How far a channel is off, in steps, beyond what its store may be.
   double off(const Seen& seen, const Color& value, int channel) const;
   NormalEquations equations(size_t light, const Triple3& at, size_t most, double scale) const;
   double error(size_t light, const Triple3& at, double scale, size_t most = ~size_t(0)) const;
   Triple3 fitted(size_t light, const Triple3& from) const;
+  std::optional<Triple3> first_step(size_t light, const Triple3& start, size_t most) const;
   void look_about(size_t light, double scale, Triple3& at) const;
   /// What a light adds, where it is drawn at all.
   Triple3 term_of(const PredictedTerms& terms, const PlainSurface& surface, const Light& light) const {
-    const bool bounded = drawn_extent(light, supposed_.pass.pipeline.light_volumes) != LightExtent::unbounded;
-    return bounded && !terms.in_range(surface, light) ? Triple3{} : terms.term(surface, light);
+    const int fragments = terms.fragments(surface, light);
+    return fragments > 0 ? times(terms.term(surface, light), fragments) : Triple3{};
   }
   /// Whether the changed light adds anything to any pixel.
   bool shines(size_t light, const Triple3& at) const {
@@ -75,7 +95,7 @@ class LightFit {
   const PictureFault& fault_;
   const std::vector<SampledPixel>& pixels_;
   const std::vector<double>& off_;
-  bool codes_ = false, last_ = false;
+  bool codes_ = false, last_ = false, blends_ = false;
   double room_ = 0;           ///< steps that a store may be off
   double farthest_ = kScale;  ///< steps that any pixel is off
   std::vector<Seen> seen_;    ///< those that are not as they should be first
@@ -87,20 +107,45 @@ void LightFit::see_pixels() {
     const auto [x, y] = picture_.source(supposed_.move, p.x, p.y);
     Seen seen{p, picture_.surface(x, y), {}, picture_.given_value(p.x, p.y), off_[i] >= kSameSteps};
     if (!seen.surface.covered) continue;
-    seen.value = predicted_pixel(supposed_.pass, seen.surface).value;
-    seen_.push_back(seen);
+    seen.value = seen.held = predicted_pixel(supposed_.pass, seen.surface).value;
+    if (blends_) add_up(seen);
+    seen_.push_back(std::move(seen));
   }
   for (const Seen& s : seen_)
     for (int k = 0; k < std::min(3, picture_.channels()); ++k)
-      if (const double steps = std::fabs(off(s, shown(s, {}), k)); std::isfinite(steps))
+      if (const double steps = std::fabs(off(s, afterwards(s, s.held), k)); std::isfinite(steps))
         farthest_ = std::max(farthest_, std::min(2 * steps, 1e6));
   std::stable_partition(seen_.begin(), seen_.end(), [](const Seen& s) { return s.changed; });
+}
+
+/// What is blended, as a sum.
+void LightFit::add_up(Seen& seen) const {
+  LightPass dark = supposed_.pass;
+  dark.lights.clear();
+  seen.value = predicted_pixel(dark, seen.surface).value;
+  seen.adds.resize(supposed_.pass.lights.size());
+  for (const LightAdded& added : lights_added(supposed_.pass, seen.surface)) {
+    seen.adds[added.light] = 1;
+    for (size_t k = 0; k < 3; ++k) seen.value[k] += added.term[k];
+  }
+}
+
+Color LightFit::Relit::at(const Seen& seen, const Triple3& more) const {
+  if (!fit_.blends_) return fit_.shown(seen, more);
+  if (more == Triple3{}) return fit_.afterwards(seen, seen.held);
+  std::vector<uint8_t> listed = seen.adds;
+  listed[light_] = 1;
+  return fit_.afterwards(seen, predicted_pixel(pass_, seen.surface, &listed).value);
 }
 
 /// What the picture stands for where the pixel is lit by so much more.
 Color LightFit::shown(const Seen& seen, const Triple3& more) const {
   Color v = seen.value;
   for (size_t k = 0; k < 3; ++k) v[k] += last_ ? more[k] * seen.surface.albedo[k] : more[k];
+  return afterwards(seen, v);
+}
+
+Color LightFit::afterwards(const Seen& seen, Color v) const {
   for (const PictureSupposition::Step& step : supposed_.steps)
     step.change(v, step.parameter, seen.pixel.x, seen.pixel.y);
   for (size_t k = 0; k < 3 && codes_; ++k) v[k] = std::clamp(v[k], 0.0, 1.0);
@@ -138,6 +183,7 @@ NormalEquations LightFit::equations(size_t light, const Triple3& at, size_t most
     moved[i] = changed(light, v);
   }
   NormalEquations n;
+  const Relit relit(*this, light, here);
   const size_t stride = std::max<size_t>(1, seen_.size() / most);
   for (size_t at_pixel = 0; at_pixel < seen_.size(); at_pixel += stride) {
     const Seen& s = seen_[at_pixel];
@@ -152,14 +198,14 @@ NormalEquations LightFit::equations(size_t light, const Triple3& at, size_t most
       along[i] = shown(s, minus(term, right));
     }
     if (!any) continue;
-    const Color value = shown(s, minus(now, right));
+    const Color value = shown(s, minus(now, right)), stored = relit.at(s, minus(now, right));
     for (int k = 0; k < std::min(3, picture_.channels()); ++k) {
       const auto c = size_t(k);
-      const double step = picture_.step_at(s.given[c], k), residual = off(s, value, k);
+      const double step = picture_.step_at(s.given[c], k), residual = off(s, stored, k);
       if (!std::isfinite(residual)) continue;
       const Triple3 slope = {(along[0][c] - value[c]) / size / step, (along[1][c] - value[c]) / size / step,
                              (along[2][c] - value[c]) / size / step};
-      const double inside = std::fabs(s.given[c] - value[c]) <= room_ * step ? 0.05 : 1;
+      const double inside = std::fabs(s.given[c] - stored[c]) <= room_ * step ? 0.05 : 1;
       const double weight = 1 / (1 + residual * residual / (scale * scale));
       for (size_t i = 0; i < 3; ++i) {
         n.b[i] += weight * slope[i] * residual;
@@ -173,13 +219,14 @@ NormalEquations LightFit::equations(size_t light, const Triple3& at, size_t most
 /// Of all pixels, by Cauchy's rule.
 double LightFit::error(size_t light, const Triple3& at, double scale, size_t most) const {
   const Light here = changed(light, at);
+  const Relit relit(*this, light, here);
   double sum = 0;
   const size_t stride = std::max<size_t>(1, seen_.size() / most);
   for (size_t at_pixel = 0; at_pixel < seen_.size(); at_pixel += stride) {
     const Seen& s = seen_[at_pixel];
     const PredictedTerms terms(supposed_.pass, s.surface);
     const Color value =
-        shown(s, minus(term_of(terms, s.surface, here), term_of(terms, s.surface, supposed_.pass.lights[light])));
+        relit.at(s, minus(term_of(terms, s.surface, here), term_of(terms, s.surface, supposed_.pass.lights[light])));
     for (int k = 0; k < std::min(3, picture_.channels()); ++k) {
       const double residual = off(s, value, k);
       if (std::isfinite(residual)) sum += std::log1p(residual * residual / (scale * scale));
@@ -209,6 +256,15 @@ Triple3 LightFit::fitted(size_t light, const Triple3& from) const {
     if (!fault_.from.empty()) look_about(light, scale, at);
   }
   return at;
+}
+
+/// Where a step of least squares leads; nothing: to numbers that no light has.
+std::optional<Triple3> LightFit::first_step(size_t light, const Triple3& start, size_t most) const {
+  const std::optional<Triple3> step = equations(light, start, most, farthest_).solved(1e-3);
+  if (!step) return std::nullopt;
+  const Triple3 at = plus(start, *step);
+  const bool is_factor = std::all_of(at.begin(), at.end(), [](double v) { return v >= 0 && std::isfinite(v); });
+  return is_factor ? std::optional(at) : std::nullopt;
 }
 
 /// Steps along each number, ever smaller: where a light ends without fading there is no slope.
@@ -243,11 +299,14 @@ std::vector<FaultParameter> LightFit::best() const {
   std::vector<Triple3> froms(lights.size(), start);
   for (size_t i = 0; i < std::min(lights.size(), kMostLights); ++i) {
     if (!fault_.of_light(lights[i])) continue;
-    if (!fault_.from.empty()) {  // or by what the best of some changes gains
+    if (!fault_.from.empty()) {  // or by what the best of some changes, and of the step, gains
       const double right = error(i, start, kScale, most);
       double least = HUGE_VAL;
-      for (const Triple3& from : fault_.from)
+      const auto try_from = [&](const Triple3& from) {
         if (const double e = error(i, from, kScale, most); e < least) least = e, froms[i] = from;
+      };
+      for (const Triple3& from : fault_.from) try_from(from);
+      if (const std::optional<Triple3> stepped = first_step(i, start, most)) try_from(*stepped);
       if (least < right) gains.emplace_back(least - right, i);
       continue;
     }

@@ -90,8 +90,10 @@ std::vector<Finding> partial_last(std::vector<Finding> findings) {
     const bool fitted = std::any_of(findings.begin() + ptrdiff_t(from), findings.begin() + ptrdiff_t(end),
                                     [](const Finding& f) { return f.fitted; });
     const Finding& last = findings[end - 1];
-    const bool is_partial = last.explained + last.located < (fitted ? kOfFitted : kExplanation) ||
-                            last.left > (last.plane == "picture" || last.drawn_again ? kLeftWhereExact : kLeftOfPlanes);
+    const bool is_partial =
+        last.explained + last.located < (fitted ? kOfFitted : kExplanation) ||
+        last.left > (last.plane == "picture" || last.drawn_again ? kLeftWhereExact : kLeftOfPlanes) ||
+        last.astray > kLeftWhereExact;
     for (; from < end; ++from) {
       findings[from].partial = is_partial;
       (is_partial ? partial : whole).push_back(std::move(findings[from]));

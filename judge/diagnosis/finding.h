@@ -35,6 +35,7 @@ struct Finding {
   bool fitted = false;       ///< its numbers are estimates, so that it can explain much by chance
   double located = 0;        ///< the share that it says is wrong, and predicts no number of: not in `explained`
   double left = 0;    ///< the share that stays far off, as no rounding leaves it; 0 of what is drawn with other edges
+  double astray = 0;  ///< of `left`, the share whose normals are another direction
   bool tied = false;  ///< no pixel tells it from the finding before it
   bool partial = false;  ///< it leaves so much unexplained that it is no explanation: it may be part of it
   Proof proof;

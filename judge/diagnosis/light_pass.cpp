@@ -23,6 +23,16 @@ PlainSurface taken(const LightPass& pass, PlainSurface surface) {
   return surface;
 }
 
+/// Where x, y and w of clip space are all 0.
+std::optional<Triple3> eye_of(const Matrix4& clip) {
+  const auto row = [&](size_t r) { return Triple3{clip[r], clip[4 + r], clip[8 + r]}; };
+  const Triple3 yw = cross(row(1), row(3)), wx = cross(row(3), row(0)), xy = cross(row(0), row(1));
+  const double determinant = inner(row(0), yw);
+  if (row(3) == Triple3{} || determinant == 0) return std::nullopt;
+  const Triple3 sum = plus(plus(times(yw, clip[12]), times(wx, clip[13])), times(xy, clip[15]));
+  return times(sum, -1 / determinant);
+}
+
 /// What the sum starts from.
 Triple3 start_of(const LightPass& pass, const PlainSurface& surface) {
   const LightModel& model = pass.pipeline.light_model;
@@ -41,14 +51,6 @@ double alpha_of(const LightPass& pass, const PlainSurface& surface) {
   return pass.pipeline.light_model.alpha_from_albedo ? surface.albedo[3] : 1;
 }
 
-/// Of one draw of a light, how many fragments its mesh has at a pixel that it covers.
-int draws_of(const LightPass& pass, const Light& light) {
-  return is_mesh(drawn_extent(light, pass.pipeline.light_volumes)) &&
-                 pass.pipeline.light_volumes.cull_face == CullFace::none
-             ? 2
-             : 1;
-}
-
 double output_of(const LightPass& pass, double x) {
   return pass.pipeline.light_model.clamp_result ? std::clamp(x, 0.0, 1.0) : x;
 }
@@ -64,11 +66,13 @@ void each_light(const LightPass& pass, const PlainSurface& surface, const Predic
     const size_t i = fault.reversed ? pass.lights.size() - 1 - at : at;
     const Light& light = pass.lights[i];
     if (int64_t(i) == fault.missing || (listed != nullptr && (*listed)[i] == 0)) continue;
-    if (drawn_extent(light, pass.pipeline.light_volumes) != LightExtent::unbounded || fault.most_at_pixel < count) {
+    const int fragments = maker.fragments(surface, light);
+    if (fragments == 0) continue;
+    if (fault.most_at_pixel < count) {
       if (!maker.in_range(surface, light)) continue;
       if (light.type != LightType::ambient && ++reached > fault.most_at_pixel) continue;
     }
-    draw(uint32_t(i), light, int64_t(i) == fault.twice ? 2 : 1);
+    draw(uint32_t(i), light, int64_t(i) == fault.twice ? 2 * fragments : fragments);
   }
 }
 
@@ -76,7 +80,10 @@ void each_light(const LightPass& pass, const PlainSurface& surface, const Predic
 
 LightPass light_pass_of(const Scene& scene, const Pipeline& pipeline) {
   LightPass pass{scene.camera, pipeline, scene.lights, {}, {}, view_axes(scene.camera, pipeline), scene.clear};
-  pass.axis = view_axis(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height));
+  const Matrix4 clip = projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height);
+  pass.axis = view_axis(clip), pass.drawn_from = eye_of(clip);
+  if (is_mesh(pipeline.light_volumes.point) || is_mesh(pipeline.light_volumes.spot))
+    pass.shapes = std::make_shared<LightShapes>(pipeline.light_volumes);
   return pass;
 }
 
@@ -135,8 +142,8 @@ PredictedPixel predicted_pixel(const LightPass& pass, const PlainSurface& given,
       return;
     }
     term = colored(term);
-    const int draws = multipass ? times_drawn : times_drawn * draws_of(pass, light);
-    for (int i = 0; i < draws; ++i) texels.blend(term, alpha, multipass ? kAddLight : pass.pipeline.blend, out.stored);
+    for (int i = 0; i < times_drawn; ++i)
+      texels.blend(term, alpha, multipass ? kAddLight : pass.pipeline.blend, out.stored);
     if (trace == nullptr) return;
     TracedLight traced{index, maker.in_range(surface, light), term != Triple3{}, {}};
     for (int k = 0; k < 4; ++k)
@@ -157,7 +164,8 @@ std::vector<LightAdded> lights_added(const LightPass& pass, const PlainSurface& 
   const bool last = pass.pipeline.light_model.order == TermOrder::albedo_last;
   std::vector<LightAdded> added;
   for (uint32_t i = 0; i < pass.lights.size(); ++i) {
-    Triple3 term = maker.term(surface, pass.lights[i]);
+    const int fragments = maker.fragments(surface, pass.lights[i]);
+    Triple3 term = fragments > 0 ? times(maker.term(surface, pass.lights[i]), fragments) : Triple3{};
     if (term == Triple3{}) continue;
     for (size_t k = 0; k < 3 && last; ++k) term[k] *= surface.albedo[k];
     added.push_back({i, term});

@@ -4,9 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "judge/diagnosis/light_shapes.h"
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 
@@ -55,6 +58,9 @@ struct LightPass {
   std::array<double, 3> axis{};                 ///< oracle::view_axis() of the camera
   std::array<std::array<double, 3>, 3> view{};  ///< view_axes() of the camera
   glm::vec4 clear{0.0f};
+  /// The eye by which meshes are drawn, whatever the lights take for it; nothing: they are drawn along `view[2]`.
+  std::optional<std::array<double, 3>> drawn_from{};
+  std::shared_ptr<const LightShapes> shapes{};  ///< null: no light is drawn as a mesh
 };
 LightPass light_pass_of(const Scene& scene, const Pipeline& pipeline);
 

@@ -1,6 +1,7 @@
 #include "judge/diagnosis/picture_search.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <mutex>
 
@@ -14,6 +15,7 @@ namespace {
 // Shares of the pixels that are not as they should be.
 constexpr double kNamed = 1.0 / 3;                       ///< that a finding explains at least
 constexpr double kParameterCost = 0.004;                 ///< what a parameter must earn
+constexpr double kWholeCost = 0.001;                     ///< and one of some whole numbers
 constexpr double kRival = 0.04;                          ///< that a lesser finding may cost more than the best
 constexpr double kPairGain = 0.55;                       ///< of a single fault's cost, that two may cost at most
 constexpr double kLeastGain = 0.02;                      ///< and that a second fault must earn
@@ -36,6 +38,19 @@ std::vector<const PictureFault*> all_faults() {
   for (const PictureFault& f : picture_value_faults()) faults.push_back(&f);
   for (const PictureFault& f : light_faults()) faults.push_back(&f);
   return faults;
+}
+
+double parameter_cost(Search search) {
+  switch (search) {
+    case Search::none:
+      return 0;
+    case Search::smooth:
+    case Search::one_light:
+    case Search::vector:
+      return kParameterCost;
+    default:
+      return kWholeCost;
+  }
 }
 
 class PictureSearch {
@@ -64,6 +79,8 @@ class PictureSearch {
   void refine(Candidate& candidate) const;
   Finding finding(std::span<const NamedFault> faults, size_t which) const;
   std::vector<Candidate> named(std::vector<Candidate> singles) const;
+  bool told_apart(const Candidate& a, const Candidate& b) const;
+  std::vector<Finding> ranked(std::vector<Candidate> singles) const;
   Proof proof(std::span<const NamedFault> faults, std::span<const NamedFault> too_few) const;
   double left(std::span<const NamedFault> faults) const;
   bool explains(const Candidate& c) const {
@@ -94,7 +111,7 @@ Candidate PictureSearch::judged(std::vector<NamedFault> faults, const PictureSup
   c.found = picture_.disagreement(supposed, all ? picture_.sample() : picture_.few(), all ? off_ : off_few_);
   c.cost = c.found.cost / (all ? changed_ : changed_few_);
   for (const NamedFault& f : faults) {
-    c.cost += f.fault->doubt + (f.fault->search != Search::none ? kParameterCost : 0);
+    c.cost += f.fault->doubt + parameter_cost(f.fault->search);
     if (f.fault->stale > 0) c.cost += picture_.stale_cost(f.fault->stale);
   }
   c.faults = std::move(faults);
@@ -237,6 +254,33 @@ std::vector<Candidate> PictureSearch::named(std::vector<Candidate> singles) cons
   return singles;
 }
 
+/// Whether any pixel of the sample tells which of two it is.
+bool PictureSearch::told_apart(const Candidate& a, const Candidate& b) const {
+  const PictureSupposition one = supposed(a.faults), other = supposed(b.faults);
+  if (one.stale > 0 || other.stale > 0) return true;
+  std::atomic<bool> differs = false;
+  parallel_for(int(off_.size()), 0, [&](int i) {
+    const auto [x, y, weight] = picture_.sample()[size_t(i)];
+    if (!differs && picture_.predicted(one, x, y).stored != picture_.predicted(other, x, y).stored) differs = true;
+  });
+  return differs;
+}
+
+/// The first with those that no pixel tells from it, one by each name, and then the others.
+std::vector<Finding> PictureSearch::ranked(std::vector<Candidate> singles) const {
+  std::vector<Finding> first, others;
+  std::vector<const PictureFault*> said;
+  for (const Candidate& c : singles) {
+    const bool is_tied = !first.empty() && !told_apart(singles.front(), c);
+    if (is_tied && std::find(said.begin(), said.end(), c.faults[0].fault) != said.end()) continue;
+    std::vector<Finding>& list = first.empty() || is_tied ? first : others;
+    list.push_back(finding(c.faults, 0)), list.back().tied = is_tied;
+    said.push_back(c.faults[0].fault);
+  }
+  first.insert(first.end(), others.begin(), others.end());
+  return first;
+}
+
 std::vector<Finding> PictureSearch::look() const {
   const auto by_cost = [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; };
   const auto unproved = [](const Finding& f) { return f.proof.plane.empty(); };
@@ -260,8 +304,7 @@ std::vector<Finding> PictureSearch::look() const {
     std::vector<Finding> both = findings(pairs.front().faults);
     if (std::none_of(both.begin(), both.end(), unproved)) return both;
   }
-  std::vector<Finding> found;
-  for (const Candidate& c : named(std::move(singles))) found.push_back(finding(c.faults, 0));
+  std::vector<Finding> found = ranked(named(std::move(singles)));
   std::erase_if(found, unproved);
   return found;
 }

@@ -106,9 +106,26 @@ ExpectedPixel PlaneCase::changed(const PlaneSupposition& supposed, Plane plane, 
         v->albedo[size_t(k)] =
             std::nearbyint(stored(plane, v->albedo[size_t(k)], k)) / views_[size_t(plane)].layout.largest_code(k);
   for (const NamedPlaneFault& f : supposed.faults)
-    if (f.fault->change != nullptr && f.fault->plane == plane)
-      for (PlaneValues* v : {&p.value, &p.low, &p.high}) f.fault->change(context_, *v, f.parameter.number);
+    if (f.fault->change != nullptr && f.fault->plane == plane) encode(*f.fault, f.parameter.number, p);
   return p;
+}
+
+/// Of a normal's and a position's box all corners: an encoding that mixes their numbers takes none of its ends to one.
+void PlaneCase::encode(const PlaneFault& fault, double parameter, ExpectedPixel& p) const {
+  const ExpectedPixel plain = p;
+  for (PlaneValues* v : {&p.value, &p.low, &p.high}) fault.change(context_, *v, parameter);
+  const auto numbers = fault.plane == Plane::normal ? &PlaneValues::normal : &PlaneValues::position;
+  if (fault.plane != Plane::normal && fault.plane != Plane::position) return;
+  auto &low = p.low.*numbers, &high = p.high.*numbers;
+  low = high = p.value.*numbers;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    PlaneValues v = plain.value;
+    for (size_t k = 0; k < 3; ++k)
+      (v.*numbers)[k] = ((corner >> k & 1u) != 0 ? plain.high.*numbers : plain.low.*numbers)[k];
+    fault.change(context_, v, parameter);
+    for (size_t k = 0; k < 3; ++k)
+      low[k] = std::min(low[k], (v.*numbers)[k]), high[k] = std::max(high[k], (v.*numbers)[k]);
+  }
 }
 
 /// As the plane's format has it.

@@ -44,6 +44,7 @@ class PlaneCase {
  private:
   /// `after`: the fault comes after the plane's format has rounded its numbers.
   ExpectedPixel changed(const PlaneSupposition& supposed, Plane plane, int x, int y, bool after) const;
+  void encode(const PlaneFault& fault, double parameter, ExpectedPixel& p) const;
   PlaneValues given(int x, int y) const;
   std::array<double, kPlanes> steps_off(const ExpectedPixel& p, int x, int y) const;
   std::optional<ExpectedPixel> average_at(const ExpectedPlanes& planes, int x, int y) const;

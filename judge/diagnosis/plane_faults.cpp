@@ -132,7 +132,9 @@ void normal_in_object(const Context& c, PlaneValues& v, double) {
     V3 object{};
     for (int k = 0; k < 3; ++k)
       for (int r = 0; r < 3; ++r) object[size_t(k)] += double(m[k][r]) * n[size_t(r)];
-    return unit3(object);
+    // As long as it is in the world: normals that are interpolated from unit ones are shorter than these.
+    const double length = std::sqrt(inner3(object, object)), due = std::sqrt(inner3(n, n));
+    return length > 0 ? V3{object[0] * due / length, object[1] * due / length, object[2] * due / length} : n;
   });
 }
 void normal_doubled(const Context&, PlaneValues& v, double) {

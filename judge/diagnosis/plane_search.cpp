@@ -49,7 +49,7 @@ class PlaneSearch {
  private:
   /// How many pixels are not as they should be, and shares of these and of the others.
   struct Share {
-    double changed = 0, explained = 0, contradicted = 0, left = 0;
+    double changed = 0, explained = 0, contradicted = 0, left = 0, astray = 0;
   };
   double cost(const std::array<double, kPlanes>& off) const {
     double sum = 0;
@@ -63,6 +63,7 @@ class PlaneSearch {
   std::vector<Candidate> beside(const PlaneSupposition& base, bool redraw) const;
   bool bears_on(const PlaneFault& fault) const;
   double left_of(const PlaneSupposition& supposed) const;
+  bool is_astray(const PlaneSupposition& supposed, const SampledPixel& pixel) const;
   void rank_equals(std::vector<Candidate>& singles) const;
   PlaneSupposition supposed(std::span<const NamedPlaneFault> faults) const;
   Share share(const PlaneSupposition& supposed, Plane plane) const;
@@ -193,6 +194,19 @@ bool is_far_off(const std::array<double, kPlanes>& now, const std::array<double,
   return false;
 }
 
+/// Whether the normal is another direction: no rounding, and no length, leaves so much.
+bool PlaneSearch::is_astray(const PlaneSupposition& supposed, const SampledPixel& pixel) const {
+  constexpr double kOtherDirection = 0.125;  // of unit length
+  const PlaneView& normals = planes_.view(Plane::normal);
+  if (!normals) return false;
+  const double unit = normals.unorm() ? normals.layout.largest_code(0) / 2.0 : 1;
+  for (int k = 0; k < std::min(3, normals.channels); ++k)
+    if (std::fabs(normals.stored(pixel.x, pixel.y, k) -
+                  planes_.predicted(supposed, Plane::normal, pixel.x, pixel.y, k)) > kOtherDirection * unit)
+      return true;
+  return false;
+}
+
 /// Of the pixels that are not as they should be, what is left of the difference to what is likeliest: where much is
 /// legal two faults may both explain a pixel, and one of them be nearer. In thousandths.
 double PlaneSearch::left_of(const PlaneSupposition& supposed) const {
@@ -259,9 +273,9 @@ PlaneSearch::Share PlaneSearch::share(const PlaneSupposition& supposed, Plane pl
     if (was && !is) out.contradicted += weight;
     const SampledPixel& p = planes_.sample()[i];  // what an encoding makes of where nothing is drawn is left open
     if (!is && !edges && is_far_off(now[i], off_[i], plane) && planes_.expected(p.x, p.y).value.covered)
-      out.left += weight;
+      out.left += weight, out.astray += is_astray(supposed, p) ? weight : 0;
   }
-  if (out.changed > 0) out.explained /= out.changed, out.left /= out.changed;
+  if (out.changed > 0) out.explained /= out.changed, out.left /= out.changed, out.astray /= out.changed;
   if (same > 0) out.contradicted /= same;
   return out;
 }
@@ -304,7 +318,7 @@ Finding PlaneSearch::finding(std::span<const NamedPlaneFault> faults, size_t whi
   f.name = name_of(*fault.fault, fault.parameter), f.text = text_of(*fault.fault, fault.parameter);
   f.plane = kPlaneNames[size_t(own)];
   f.changed = uint64_t(std::llround(found.changed));
-  f.explained = found.explained, f.contradicted = found.contradicted, f.left = found.left;
+  f.explained = found.explained, f.contradicted = found.contradicted, f.left = found.left, f.astray = found.astray;
   f.drawn_again = fault.fault->redraws();
   f.together = which > 0, f.fitted = fault.fault->is_estimate() || fault.fault->averages;
   f.alone = f.together ? share(supposed({&fault, 1}), own).explained : f.explained;

@@ -59,6 +59,21 @@ bool PredictedTerms::in_range(const PlainSurface& surface, const Light& light) c
   return !(inner(offset, offset) >= range * range);
 }
 
+int PredictedTerms::fragments(const PlainSurface& surface, const Light& light) const {
+  const LightExtent extent = drawn_extent(light, pass_.pipeline.light_volumes);
+  if (extent == LightExtent::unbounded) return 1;
+  const bool drawn = is_mesh(extent) && pass_.pipeline.strategy == Strategy::deferred_volumes;
+  if (!drawn) return in_range(surface, light) ? 1 : 0;
+  Light placed = light;
+  const Triple3 place = place_of(light);
+  placed.position = {float(place[0]), float(place[1]), float(place[2])};
+  placed.range = float(double(light.range) * pass_.fault.range);
+  constexpr double kFar = 0x1p20;  // of ranges: a ray without an eye begins beyond every light
+  const Triple3 toward = times(pass_.view[2], kFar * double(placed.range));
+  const Triple3 from = pass_.drawn_from.value_or(plus(surface.position, toward));
+  return pass_.shapes->fragments(placed, extent, {from, minus(surface.position, from)});
+}
+
 Triple3 PredictedTerms::unit_of(const Triple3& v) const { return times(v, root_of(inner(v, v), pass_.fault.root)); }
 
 Triple3 PredictedTerms::place_of(const Light& light) const {

@@ -13,6 +13,8 @@ class PredictedTerms {
   /// What a light adds to the sum.
   Triple3 term(const PlainSurface& surface, const Light& light) const;
   bool in_range(const PlainSurface& surface, const Light& light) const;
+  /// How often the light is drawn at the surface's pixel.
+  int fragments(const PlainSurface& surface, const Light& light) const;
 
  private:
   Triple3 unit_of(const Triple3& v) const;

@@ -160,7 +160,7 @@ PlantedTry planted_try(const Ground& ground, const Plant& plant, int variant, co
   for (size_t i = 0; i < findings.size(); ++i) {
     out.found += (i > 0 ? " " : "") + findings[i].name;
     if (says(findings[i], plant)) {
-      out.named = true, out.first = out.first || (i == 0 && !findings[i].partial);
+      out.named = true, out.first = out.first || ((i == 0 || findings[i].tied) && !findings[i].partial);
       out.blamed = out.blamed || findings[i].plane == plant.plane;
     }
     if (other != nullptr && says(findings[i], *other)) out.second = true;

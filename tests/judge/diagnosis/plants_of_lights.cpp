@@ -38,6 +38,16 @@ void spots(Scene& s, Pipeline&) {
     l.color *= 2.0f;
   }
 }
+/// Normals of boxes as of round things: interpolated, they are shorter than unit length.
+void rounded(Scene& s, Pipeline&) {
+  for (Mesh& mesh : s.meshes)
+    for (size_t i = 0; i < mesh.vertex_count(); ++i) {
+      V n(mesh.position[0][i] + mesh.normal[0][i], mesh.position[1][i] + mesh.normal[1][i],
+          mesh.position[2][i] + mesh.normal[2][i]);
+      n *= 1 / std::max(1e-6f, std::sqrt(dot_of(n, n)));
+      for (size_t k = 0; k < 3; ++k) mesh.normal[k][i] = n[int(k)];
+    }
+}
 void rebuilt_positions(Scene&, Pipeline& p) { p.gbuffer.position_from_depth = true; }
 
 Image* plane_of(Capture& c, std::string_view name) {
@@ -171,6 +181,7 @@ void add_planes(std::vector<Plant>& all) {
       vectors("normal", [](const Scene&, const V& n, int) { return n * 2.0f - 1.0f; }));
   out("normal", "normals unit where interpolated ones are due", {"normal-unit"},
       vectors("normal", [](const Scene&, const V& n, int) { return n * (1 / std::sqrt(dot_of(n, n))); }));
+  all.back().base = rounded;
   const auto albedo = [&](std::string_view name, Names names, float (*formula)(float, int k), bool glassy) {
     out("albedo", name, std::move(names), [formula](const Scene&, const Pipeline&, Capture& c, int) {
       Image& plane = *plane_of(c, "albedo");
