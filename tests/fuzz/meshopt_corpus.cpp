@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/scenes/gltf/encode_exponents.h"
+
 namespace {
 
 using Bytes = std::vector<uint8_t>;
@@ -128,7 +130,7 @@ void write_quaternions(const std::string& folder) {
 void write_exponents(const std::string& folder) {
   Packed file;
   std::vector<uint32_t> filtered(kCount * 3);
-  meshopt_encodeFilterExp(filtered.data(), kCount, 12, 15, positions(kCount).data());
+  trueshade::testing::encode_exponents(filtered.data(), kCount, 12, 15, positions(kCount).data());
   file.vertices(filtered.data(), kCount, 12, "EXPONENTIAL");
   file.accessor(0, 5126, kCount, "VEC3");
   file.write(folder + "/meshopt-exponential", R"("POSITION":0})");

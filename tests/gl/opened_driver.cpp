@@ -23,6 +23,12 @@ const GlContext* opened(GlDriver which) {
   }
 }
 
+bool is_of_known_profile(const GlContext& context) {
+  const std::string driver = context.info().line();
+  if (driver.find("llvmpipe") == std::string::npos) return false;
+  return driver.find("Mesa 22.3.") != std::string::npos || driver.find("Mesa 25.0.") != std::string::npos;
+}
+
 const GlContext* opened_mesa_22_3() {
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr || context->info().version.find("Mesa 22.3.") != std::string::npos) return context;

@@ -16,8 +16,7 @@ namespace {
 std::vector<Profile> profiles_of(const GlContext& context) {
   std::vector<Profile> profiles = {*profile_named("unknown")};
   profiles[0].subpixel_bits = context.info().subpixel_bits;
-  if (context.info().line().find("Mesa 22.3") != std::string::npos)
-    profiles.push_back(*profile_named("mesa-llvmpipe-22.3"));
+  if (testing::is_of_known_profile(context)) profiles.push_back(*profile_named("mesa-llvmpipe-22.3"));
   return profiles;
 }
 

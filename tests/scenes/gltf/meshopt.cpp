@@ -6,6 +6,7 @@
 
 #include "../expect_error.h"
 #include "asset.h"
+#include "encode_exponents.h"
 
 namespace trueshade {
 namespace {
@@ -137,7 +138,7 @@ TEST_CASE("quaternions and exponents come back as they were packed") {
   }
   const std::vector<float> numbers{1.5f, -0.25f, 1000.0f, 0.0f, 3e-5f, -7.0f, 123456.0f, 1e10f};
   std::vector<uint32_t> exponents(8);
-  meshopt_encodeFilterExp(exponents.data(), 4, 8, 15, numbers.data());
+  testing::encode_exponents(exponents.data(), 4, 8, 15, numbers.data());
   const auto floats = unpacked<float>(packing_of(4, 8, Packing::Mode::attributes, Packing::Filter::exponential),
                                       packed_vertices(exponents, 4, 8));
   for (size_t i = 0; i < 8; ++i) {
