@@ -26,7 +26,7 @@ class ConvexMesh {
  private:
   struct Face {
     Triple3 normal;  ///< outward, of unit length
-    double offset;   ///< normal . p of its points
+    double offset;   ///< of the face's plane from the origin, along its normal
   };
   std::vector<Face> faces_;
   double inner_ = 0, outer_ = 0;  ///< radii of spheres about the origin, in the mesh and about it; inner_ 0: none is

@@ -110,7 +110,9 @@ ExpectedPixel PlaneCase::changed(const PlaneSupposition& supposed, Plane plane, 
   return p;
 }
 
-/// Of a normal's and a position's box all corners: an encoding that mixes their numbers takes none of its ends to one.
+/// The fault's change of a pixel's nominal values and of the bounds about them. A normal and a position lie in a box of
+/// legal values. The fault is applied to all eight corners of that box, and the new bounds enclose what comes out: an
+/// encoding that mixes the components, as octahedra do, need not take the lowest corner to the lowest result.
 void PlaneCase::encode(const PlaneFault& fault, double parameter, ExpectedPixel& p) const {
   const ExpectedPixel plain = p;
   for (PlaneValues* v : {&p.value, &p.low, &p.high}) fault.change(context_, *v, parameter);
