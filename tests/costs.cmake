@@ -1,4 +1,4 @@
-# What takes above 4 s of CPU time, on two AMD EPYC cores with other work beside: run by `./check full`, not by `./check`.
+# What takes above 2 s on two AMD EPYC cores with other work beside: run by `./check full`, not by `./check`.
 # The costs are seconds, so that ctest starts with the longest before it has times of its own: one that is started last
 # keeps one core busy while the others wait. A name that no test has any more is ignored.
 # trueshade_slow(COST NAMES...)
@@ -9,7 +9,8 @@ trueshade_slow(40
   "gl:llvmpipe draws every scene and preset as we do, off edges, within a code"
   "judge:Our own frames are explained under every preset and strategy"
   "judge:What llvmpipe draws is explained under every preset and strategy, by its profile and by any GPU's"
-  "judge:Wrong renderers are rejected wherever they leave the legal sets")
+  "judge:Wrong renderers are rejected wherever they leave the legal sets"
+  "diagnosis:A name that leaves pixels far off is but a part, although it explains most of them")
 trueshade_slow(20
   "cli:what OpenGL draws here is explained, pixel by pixel"
   "gl:llvmpipe encodes every float from 0 to 1 as the sRGB code of the profile"
@@ -20,7 +21,16 @@ trueshade_slow(20
   "judge:Glass with maps of metal, emission and occlusion by llvmpipe is explained, and a wrong map of it is not"
   "judge:What llvmpipe makes of maps of metal, emission and occlusion, and of unlit surfaces, is legal"
   "judge:What llvmpipe makes of textures is legal: every format, wrap and filter, and masks"
-  "raster:All built-in scenes show what Embree's rays hit at 800 x 800, away from edges and depth ties")
+  "raster:All built-in scenes show what Embree's rays hit at 800 x 800, away from edges and depth ties"
+  "cli:What scales in bench's report is the scene that was measured, but for what is varied"
+  "judge:The profile inferred from one band of what softpipe draws is that of the whole image"
+  "judge:A probe of our own frames tells the rules that docs/arithmetic.md states"
+  "diagnosis:Dithered pictures and stale tiles are named, with a pixel that shows it"
+  "diagnosis:Planes of what materials reflect and emit that are encoded wrongly are named"
+  "judge:Faults that leave pixels legal are convicted by the whole image"
+  "diagnosis:Where no fault fits nothing is named"
+  "diagnosis:A picture that was lit before its normals were packed into 8 bits is not dithered"
+  "diagnosis:Roots of 12 bits that change a hundred pixels of a city by a code are convicted in the sums of its lights")
 trueshade_slow(10
   "judge:A software device of Vulkan is not convicted under states drawn at random"
   "judge:Our own frames are not convicted under states drawn at random"
@@ -37,7 +47,19 @@ trueshade_slow(10
   "judge:llvmpipe's own wrong blends are rejected light by light, under its profile too"
   "shading:0, 1, 757 and 100,000 lights give one image, culled or not, under every preset and strategy"
   "shading:Row 33 over all floats in [0, 1]: 8-bit stores never fall"
-  "shading:hostile numbers in a scene's text: a frame without NaN, or exit code 3 or 4 in one line")
+  "shading:hostile numbers in a scene's text: a frame without NaN, or exit code 3 or 4 in one line"
+  "judge:Of seventy-two images by llvmpipe, triangles turned and pictures moved, none is rejected"
+  "judge:A probe of llvmpipe makes the profile that is in the code"
+  "judge:lavapipe is explained under every strategy, with glass and with textures"
+  "diagnosis:sRGB twice too often is named"
+  "judge:lavapipe is explained whatever the pipeline's state"
+  "diagnosis:Of two faults each prints its own share and proof, and supposing it again prints the same"
+  "raster:Coverage of triangles whose corners have w from 1 to 2^-120, and below 0, is the exact one"
+  "gl:llvmpipe blends random states, values and formats to the profile's bits"
+  "diagnosis:Positions by another near plane, and normals and alpha that are decoded wrongly, are named"
+  "diagnosis:Normals in view space are found where the camera is a matrix"
+  "diagnosis:Lights that are one to five thousandths too bright or reach too far are named in planes of halves"
+  "gl:The same frames, replayed in OpenGL 4.5 and OpenGL ES 3.1, are judged without a violation")
 trueshade_slow(4
   "judge:Maps of which one is decoded after it is filtered, and the other before, are convicted together, not apart"
   "cli:wherever memory ends, the command ends in order"
@@ -82,7 +104,72 @@ trueshade_slow(4
   "shading:Transparent fragments are blended as the naive twin blends them, bit for bit, in both modes"
   "shading:every term, falloff, cone and order of a light model has the naive loop's bits"
   "shading:hostile numbers in C++ values: a frame without NaN, or a refusal"
-  "shading:the benchmark scenes are as hard as they are meant to be")
+  "shading:the benchmark scenes are as hard as they are meant to be"
+  "judge:What is left out says nothing of the fault: the same findings are made, of the same pixels"
+  "diagnosis:An object that is moved, turned, of another size, wound wrongly or incomplete is named with its numbers"
+  "gl:OpenGL's own lighting of points lies in what the fixed-function model allows"
+  "judge:Images of hardware that is known are not convicted"
+  "judge:The profile inferred from one band of what llvmpipe draws is that of the whole image"
+  "gl:Lit frames of ten bits a channel are llvmpipe's codes under its profile, but where sums lie at a code's edge"
+  "diagnosis:One light moved a little is named with its way, and is neither dithering nor stale tiles"
+  "cli:bench refuses what it cannot do, in one line"
+  "cli:One scene captured in each kind of file is judged the same"
+  "gl:Three presets, replayed from their files in Vulkan, are judged without a violation"
+  "install: a program finds, links and runs the installed library"
+  "diagnosis:A fault that nobody planted is named where it has a name, and no name is put on one that has none"
+  "judge:softpipe is not convicted under any preset and strategy but one, of whose fault it is"
+  "rules: the kernels hold no fused or estimating instruction"
+  "judge:The profile inferred from one band of our own frames is that of the whole image"
+  "cli:A value that a plane was cleared to says nothing, and what is left there of something else does"
+  "diagnosis:An anisotropic filter that is left on is named, not as a bias of levels"
+  "explain:a light that another renderer leaves out is named, wherever it makes a difference"
+  "diagnosis:Maps that are read wrongly are named"
+  "gl:Three presets, replayed from their files in OpenGL 3.3, are judged without a violation"
+  "judge:A shininess that is no integer, and a share of ambient light that is not there, are violations"
+  "diagnosis:A camera that is elsewhere or sees another angle, and a viewport that is another, are named"
+  "cli:a reader that has ended ends the command without a word"
+  "farm:without lost ranks the run goes on to the end, whoever is lost, and whenever"
+  "cli:The whole command stays below the memory that five and eight million triangles were given"
+  "gl:state.json carried out, call by call, draws the judge's own bytes under every preset and strategy")
+trueshade_slow(2
+  "explain:a light model of another kind, and a picture upside down, are named"
+  "diagnosis:Legal captures have no finding"
+  "cli:commands beside render read scenes from cache files"
+  "diagnosis:An exposure a little off is named by its number, not as dithering"
+  "gl:Bloom on llvmpipe is ours within the roundings of its float sums"
+  "diagnosis:A parameter that a fault does not take is refused in a line that says what it takes"
+  "cli:models, scene files and built-in scenes are drawn from cache files as without"
+  "gl:state.json carried out follows every value of the pipeline that is state"
+  "cli:bench times OpenGL under presets that draw lights as geometry, and says which picture each design draws"
+  "gl:Frames of 16-bit depths in another clip space, replayed, are judged without a violation"
+  "diagnosis:A wrong vertex is named with the way that it is moved"
+  "bands:One flipped bit of what lies on disk, or a part that is shorter, begins a picture anew"
+  "diagnosis:A name that says no number of the pixels that it holds explains none of them"
+  "judge:llvmpipe draws by the emitted shader what the page says of infinite positions"
+  "diagnosis:A city whose lights are converted within 0.6 of a code one by one, or in their sum, is not convicted"
+  "gl:Reinhard's operator and sRGB codes on llvmpipe are ours within GLSL's log2, exp2 and pow"
+  "raster:Row 17: 2400 random, small, half-pixel-aligned and sliver triangles equal the 128-bit model"
+  "cli:bench draws the designs of OpenGL that are named, and no other"
+  "judge:Glass whose alpha is 0.49 for 0.5 is convicted though each pixel is legal, and right glass is not"
+  "raster:lookups equal the scalar oracle within half an ulp: every wrap, filter, format, level, size"
+  "diagnosis:An object that slides along a face is named by where its outline went"
+  "scenes:export: the largest built-in scene loads as the same scene"
+  "cli:A file of jobs that is wrong is refused in one line that names the place"
+  "diagnosis:Edges that are means of samples are named"
+  "gl:llvmpipe bends normals and multiplies gloss as the formulas say, within the roundings of the shader"
+  "diagnosis:Dithering is named where a first look at few pixels does not show that it is random"
+  "diagnosis:Of two names that no pixel tells apart both are given, by the numbers that matter alone"
+  "shading:All factors, equations, formats and profiles blend like the scalar twin, on every SIMD target"
+  "judge:Our own frames follow the stated rounding"
+  "fp_modes:a public function gives the same result under every floating-point mode, and leaves the mode as it was"
+  "diagnosis:Half a picture in shadow is no stale tile"
+  "cli:A resumed batch leaves out what passed, and runs again what has changed, and what reads that"
+  "bench:a run of ranks that sleep takes what the model says"
+  "gl:Lights blended into every target format on llvmpipe come out as ours, within a step of the format a light"
+  "cli:A batch that is killed leaves no process, tears nothing, and is resumed"
+  "diagnosis:One light of another range, cone or attenuation, and all lights elsewhere, are named"
+  "shading:Planes of materials with maps of every kind are what the scalar renderer makes of them"
+  "scenes:export: the lights of built-in scenes and of random ones are what extras.trueshade says")
 # Tests that are tagged [slow] or [long] in their files.
 set_tests_properties(
   "shading:every built-in scene has one hash over pairs of all ways to draw it"
