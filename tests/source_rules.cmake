@@ -2,6 +2,7 @@
 set(rules ${CMAKE_CURRENT_SOURCE_DIR})
 add_test(NAME "rules: folders include only what the arrows allow" COMMAND ${rules}/include_arrows.sh ${PROJECT_SOURCE_DIR})
 add_test(NAME "rules: every folder says in a README what it holds" COMMAND ${rules}/folder_readmes.sh ${PROJECT_SOURCE_DIR})
+add_test(NAME "rules: what CI leaves out has run on a late commit, and passed" COMMAND ${rules}/night_rows.sh ${PROJECT_SOURCE_DIR})
 add_test(NAME "rules: every test can be asked for by its name" COMMAND ${rules}/test_names.sh ${PROJECT_SOURCE_DIR})
 add_test(NAME "rules: preset names occur in the presets, the command and tests" COMMAND ${rules}/preset_names.sh ${PROJECT_SOURCE_DIR})
 add_test(NAME "rules: every source is compiled without contraction and fast math"
