@@ -3,7 +3,7 @@
 # tests/judge/diagnosis/diagnosis_rows.cpp says how to make them.
 # Usage: diagnosis_table.sh FILE... [--pairs FILE...] >docs/data/diagnosis.md
 #   --pairs: lines of two faults at once
-#   EVERY, of the environment: the STEP of diagnosis_rows
+#   EVERY and COMMIT, of the environment: the STEP of diagnosis_rows, and the state that it was built from
 #   tries: captures in which the fault changes 100 pixels of the plane by a step of its format
 #   legal: of these, captures whose picture differs from a right renderer's in fewer than 100 (legal_witness.h)
 set -euo pipefail
@@ -18,7 +18,7 @@ for file in "$@"; do
     singles+=("$file")
   fi
 done
-awk -F'\t' -v every="${EVERY:-7}" '
+awk -F'\t' -v every="${EVERY:-7}" -v commit="${COMMIT:?}" '
   function share(part, whole) { return whole ? sprintf("%.1f %%", 100 * part / whole) : "-" }
   function row(name, t, l, c, a, f, n, b) {
     return "| " name " | " t " | " l " | " share(c, t - l) " | " share(a, t) " | " share(f, t) " | " share(n, t) \
@@ -49,7 +49,7 @@ awk -F'\t' -v every="${EVERY:-7}" '
     print "and `circle` (24 lights), those of colour maps in `lecture`, of 128x96 pixels, as rgba8 and rgba16f, by"
     print "`deferred-loop` and `deferred-volumes`, under one to three presets and in several sizes. Of these one in " every
     print "is tried, and those in which the fault changes fewer than 100 pixels are left out. The capture is a file whose"
-    printf "driver has 8 subpixel bits. The rows are of one build, whose faults are the %d that are planted here and others.\n", count
+    printf "driver has 8 subpixel bits. The rows are of commit %s, whose faults are the %d that are planted here and others.\n", commit, count
     print ""
     print "- *Near legal*: tries whose picture differs from one that a right renderer may draw in fewer than 100 pixels. That"
     print "  renderer is made for each try (`tests/judge/diagnosis/legal_witness.h`): it sums the lights in long double, or"
