@@ -76,7 +76,7 @@ TEST_CASE("numbers and times are the same whatever rounding mode a library has l
   const Arguments drawn = {"render", "builtin:cornell", "--size", "16x16", "--time", "0.1", "--hash", "--json"};
   const auto said = [&](const char* way) {
     const std::string setup =
-        *way == '\0' ? "true" : std::string("export TRUESHADE_ROUNDING=") + way + " LD_PRELOAD='" ROUNDS_OTHERWISE "'";
+        *way == '\0' ? "true" : std::string("export TRUESHADE_ROUNDING=") + way + " PRELOADED='" ROUNDS_OTHERWISE "'";
     // An aspect that no number of 24 bits is, so that the projection rounds.
     const Outcome outcome = resolve("builtin:city,objects=3,lights=2", folder, {"--size", "97x61"}, setup);
     CHECK(outcome.exit_code == 0);
@@ -103,7 +103,7 @@ TEST_CASE("no command minds traps or rounding that a library has left the proces
       CAPTURE(arguments.front(), way);
       const Outcome outcome =
           run_command(arguments, folder.path(""),
-                      std::string("export TRUESHADE_ROUNDING=") + way + " LD_PRELOAD='" ROUNDS_OTHERWISE "'");
+                      std::string("export TRUESHADE_ROUNDING=") + way + " PRELOADED='" ROUNDS_OTHERWISE "'");
       CHECK(outcome.exit_code == usual.exit_code);
       CHECK(outcome.out == usual.out);
     }

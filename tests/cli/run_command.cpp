@@ -28,7 +28,8 @@ Outcome run_command(const std::vector<std::string>& arguments, const std::string
                     const std::string& shell_setup) {
   const ScratchFolder logs;
   std::string line = "exec >" + quoted(logs.path("out")) + " 2>" + quoted(logs.path("err")) + "; cd " + quoted(folder) +
-                     " && " + shell_setup + " && exec timeout 60 " + quoted(TRUESHADE_COMMAND);
+                     " && " + shell_setup + " && exec timeout 60 env ${PRELOADED:+LD_PRELOAD=\"$PRELOADED\"} " +
+                     quoted(TRUESHADE_COMMAND);
   for (const std::string& argument : arguments) line += ' ' + quoted(argument);
   const int status = std::system(line.c_str());
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1000 - WTERMSIG(status);

@@ -11,7 +11,7 @@ struct Outcome {
 };
 
 /// Runs `trueshade ARGUMENTS...` in `folder` with a time limit of 60 s. `shell_setup`: shell text before it, like
-/// `ulimit -f 8`.
+/// `ulimit -f 8`. `export PRELOADED=FILE` in it loads a library into the command alone: `timeout` computes with floats.
 Outcome run_command(const std::vector<std::string>& arguments, const std::string& folder = ".",
                     const std::string& shell_setup = "true");
 
