@@ -23,6 +23,7 @@ trueshade_slow(20
   "raster:All built-in scenes show what Embree's rays hit at 800 x 800, away from edges and depth ties")
 trueshade_slow(10
   "judge:A software device of Vulkan is not convicted under states drawn at random"
+  "judge:SwiftShader is not convicted by its profile under states drawn at random"
   "judge:Our own frames are not convicted under states drawn at random"
   "judge:llvmpipe is not convicted under states drawn at random"
   "judge:What llvmpipe makes of both sides, mirrored instances and further texture coordinates is legal"
