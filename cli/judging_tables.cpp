@@ -19,7 +19,7 @@ void add_validate_output(CommandTable& table, ValidationOptions& options) {
 
 void add_driver(CommandTable& table, std::optional<std::string>& driver) {
   add_choice(table, "--driver", "NAME", driver,
-             "Driver to open: default, llvmpipe or softpipe of OpenGL, vulkan, or lavapipe", kDriverNames);
+             "Driver to open: default, llvmpipe or softpipe of OpenGL; vulkan, lavapipe or swiftshader", kDriverNames);
 }
 
 void add_criteria(CommandTable& table, CompareOptions& options, CompareTexts& texts) {

@@ -4,7 +4,7 @@
 
 namespace trueshade {
 
-DriverFrame drawn_by_vulkan_device(bool, const Scene&, const Pipeline&) {
+DriverFrame drawn_by_vulkan_device(const std::string&, const Scene&, const Pipeline&) {
   throw Error(ErrorKind::no_gl_driver, "Vulkan", "this build has none",
               "build with libvulkan-dev and glslang-dev, or judge a capture with --gbuffer");
 }

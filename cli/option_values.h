@@ -44,7 +44,8 @@ struct Variant {
 Variant variant_from_text(const std::string& text);
 
 // Names that values may have, for completions and suggestions.
-inline constexpr std::string_view kDriverNames[] = {"default", "llvmpipe", "softpipe", "vulkan", "lavapipe"};
+inline constexpr std::string_view kDriverNames[] = {"default", "llvmpipe", "softpipe",
+                                                   "vulkan", "lavapipe", "swiftshader"};
 inline constexpr std::string_view kEncodingNames[] = {"srgb", "raw"}, kColorSpaceNames[] = {"srgb", "linear"};
 inline constexpr std::string_view kRowOrders[] = {"top_down", "bottom_up"};
 inline constexpr std::string_view kSimdNames[] = {"best", "avx512", "avx2", "sse4", "scalar"};

@@ -116,7 +116,7 @@ struct GlslFilesOptions : PipelineOptions {  // `scene` may be empty
 
 /// `trueshade validate`: what OpenGL draws here, or a capture made elsewhere, against the sets of legal values.
 struct ValidationOptions : PipelineOptions {
-  std::optional<std::string> driver;   ///< default, llvmpipe, softpipe, vulkan or lavapipe; none of a capture
+  std::optional<std::string> driver;   ///< one of kDriverNames; none of a capture
   std::optional<std::string> held_to;  ///< a profile's name or file, .json; nothing: what OpenGL promises of any
   double time = 0.0;                   ///< seconds of the scene's timeline
   std::optional<int> subpixel_bits;    ///< of the driver's grid; nothing: what it says, 4 for a capture

@@ -10,6 +10,7 @@
 #include "cli/json_text.h"
 #include "cli/vulkan_capture.h"
 #include "cli/written_files.h"
+#include "core/error.h"
 #include "core/image_files/image_io.h"
 #include "judge/bounds/profile_file.h"
 
@@ -31,14 +32,25 @@ oracle::LightSteps kept(const oracle::LightSteps& steps) {
   };
 }
 
-std::vector<ProbeFrame> drawn(const std::optional<std::string>& driver, const std::vector<ProbePlan>& plans) {
+struct DrawnPlans {
   std::vector<ProbeFrame> frames;
+  std::vector<std::string> not_drawn;  ///< the frame, and what the driver lacks
+};
+
+/// Throws where the driver draws none of them.
+DrawnPlans drawn(const std::optional<std::string>& driver, const std::vector<ProbePlan>& plans) {
+  DrawnPlans out;
   for (const ProbePlan& plan : plans) {
-    DriverFrame frame = drawn_by(driver, plan.scene, plan.pipeline);
-    frames.push_back({&plan, std::move(frame.capture), {}});
-    if (frame.steps) frames.back().steps = kept(frame.steps);
+    try {
+      DriverFrame frame = drawn_by(driver, plan.scene, plan.pipeline);
+      out.frames.push_back({&plan, std::move(frame.capture), {}});
+      if (frame.steps) out.frames.back().steps = kept(frame.steps);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::no_gl_driver || out.frames.empty()) throw;
+      out.not_drawn.push_back(plan.name + ": " + error.what());
+    }
   }
-  return frames;
+  return out;
 }
 
 std::string line_of(const ProbedField& field) {
@@ -73,8 +85,10 @@ std::string verdict_line(const std::vector<ProbeCheck>& checks) {
          std::to_string(checks.size()) + " held-out frames, " + share + " % of pixels EXACT\n";
 }
 
-std::string report_of(const std::string& driver, const ProbeResult& result, const std::vector<ProbeCheck>& checks) {
+std::string report_of(const std::string& driver, const std::vector<std::string>& not_drawn, const ProbeResult& result,
+                      const std::vector<ProbeCheck>& checks) {
   std::string text = "driver      " + driver + '\n';
+  for (const std::string& frame : not_drawn) text += "not drawn   " + frame + '\n';
   for (const std::string& frame : result.set_aside)
     text += "set aside   " + frame + ": no OpenGL draws this, so nothing is learnt of it\n";
   for (const ProbedField& field : result.fields) text += line_of(field);
@@ -84,9 +98,11 @@ std::string report_of(const std::string& driver, const ProbeResult& result, cons
   return text + verdict_line(checks);
 }
 
-std::string report_json(const std::string& driver, const ProbeResult& result, const std::vector<ProbeCheck>& checks) {
+std::string report_json(const std::string& driver, const std::vector<std::string>& not_drawn, const ProbeResult& result,
+                        const std::vector<ProbeCheck>& checks) {
   constexpr const char* kStates[] = {"told", "open", "refuted"};
-  JsonArray fields, frames, set_aside;
+  JsonArray fields, frames, set_aside, lacking;
+  for (const std::string& frame : not_drawn) lacking.add_raw(json_string(frame));
   for (const std::string& frame : result.set_aside) set_aside.add_raw(json_string(frame));
   for (const ProbedField& f : result.fields)
     fields.add_raw(JsonObject()
@@ -107,6 +123,7 @@ std::string report_json(const std::string& driver, const ProbeResult& result, co
              .put("driver", driver)
              .put_raw("profile", oracle::profile_json(result.profile))
              .put_raw("fields", fields.text())
+             .put_raw("not_drawn", lacking.text())
              .put_raw("set_aside", set_aside.text())
              .put_raw("held_out", frames.text())
              .put("pass", totals_of(checks).violations == 0)
@@ -121,20 +138,21 @@ bool probe_driver(const ProbeOptions& options) {
   if (!options.output.empty()) check_writable(options.output);
   Activity activity("drawing");
   const std::vector<ProbePlan> plans = oracle::probe_plans(kProbed), others = oracle::probe_plans(kHeldOut);
-  const std::vector<ProbeFrame> frames = drawn(options.driver, plans), held_out = drawn(options.driver, others);
-  const std::string driver = frames.front().capture.driver;
+  const DrawnPlans probed = drawn(options.driver, plans), held_out = drawn(options.driver, others);
+  const std::string driver = probed.frames.front().capture.driver;
   activity.now("telling one rule from another");
-  const ProbeResult result = oracle::probe_profile(frames, options.name.value_or(driver.substr(0, 100)));
+  const ProbeResult result = oracle::probe_profile(probed.frames, options.name.value_or(driver.substr(0, 100)));
   activity.now("judging frames that were held out");
   std::vector<ProbeCheck> checks;
-  for (const ProbeFrame& frame : held_out)
+  for (const ProbeFrame& frame : held_out.frames)
     if (std::find(result.set_aside.begin(), result.set_aside.end(), frame.plan->name) == result.set_aside.end())
       checks.push_back(oracle::check_profile(frame, result.profile));
   if (!options.output.empty()) {
     const std::string text = oracle::profile_json(result.profile);
     write_file(options.output, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
   }
-  print(options.json ? report_json(driver, result, checks) : shown_report(report_of(driver, result, checks)));
+  print(options.json ? report_json(driver, probed.not_drawn, result, checks)
+                     : shown_report(report_of(driver, probed.not_drawn, result, checks)));
   if (!options.output.empty())
     say_written(options.output, "profile", options.json ? StandardOutput::answer : StandardOutput::files);
   return totals_of(checks).violations == 0;

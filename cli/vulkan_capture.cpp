@@ -24,18 +24,24 @@ uint64_t differing_pixels(const oracle::Capture& a, const oracle::Capture& b) {
   return count;
 }
 
+oracle::VulkanDriver driver_of(const std::string& name) {
+  if (name == "swiftshader") return oracle::VulkanDriver::swiftshader;
+  return name == "lavapipe" ? oracle::VulkanDriver::software : oracle::VulkanDriver::first;
+}
+
 }  // namespace
 
-DriverFrame drawn_by_vulkan_device(bool software, const Scene& scene, const Pipeline& pipeline) {
-  oracle::VulkanFrame frame = oracle::drawn_by_vulkan(scene, pipeline, software);
+DriverFrame drawn_by_vulkan_device(const std::string& name, const Scene& scene, const Pipeline& pipeline) {
+  const oracle::VulkanDriver driver = driver_of(name);
+  oracle::VulkanFrame frame = oracle::drawn_by_vulkan(scene, pipeline, driver);
   DriverFrame drawn;
   drawn.capture = std::move(frame.capture);
   drawn.subpixel_bits = frame.subpixel_bits;
   drawn.notes = std::move(frame.notes);
   drawn.timed_frames = 1;
   drawn.passes = {{"frame", frame.ms}};
-  const auto again = [&scene, pipeline, software](const oracle::VulkanDraw& draw) {
-    return oracle::drawn_by_vulkan(scene, pipeline, software, draw).capture;
+  const auto again = [&scene, pipeline, driver](const oracle::VulkanDraw& draw) {
+    return oracle::drawn_by_vulkan(scene, pipeline, driver, draw).capture;
   };
   drawn.repeat_changes = [again](const oracle::Capture& first) { return differing_pixels(first, again({})); };
   if (blends_lights(pipeline.strategy)) drawn.steps = [again](const oracle::StepSink& sink) { again({sink, {}}); };

@@ -33,6 +33,7 @@ trueshade_slow(20
   "diagnosis:Roots of 12 bits that change a hundred pixels of a city by a code are convicted in the sums of its lights")
 trueshade_slow(10
   "judge:A software device of Vulkan is not convicted under states drawn at random"
+  "judge:SwiftShader is not convicted by its profile under states drawn at random"
   "judge:Our own frames are not convicted under states drawn at random"
   "judge:llvmpipe is not convicted under states drawn at random"
   "judge:What llvmpipe makes of both sides, mirrored instances and further texture coordinates is legal"

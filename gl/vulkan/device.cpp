@@ -1,7 +1,10 @@
 #include "gl/vulkan/device.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 
@@ -88,9 +91,38 @@ VkFormat vulkan_format(Format format) {
   return VK_FORMAT_UNDEFINED;
 }
 
-VulkanDevice::VulkanDevice(bool software) {
+namespace {
+
+/// Where SwiftShader's own manifest is: browsers bring it, and do not tell Vulkan's loader. Empty where the user has
+/// named files, of which the device is taken then.
+std::string swiftshader_manifest() {
+  for (const char* name : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"})
+    if (std::getenv(name) != nullptr) return {};
+  for (const char* folder : {"/usr/lib/chromium/", "/usr/lib64/chromium-browser/", "/opt/google/chrome/"})
+    if (const std::string file = std::string(folder) + "vk_swiftshader_icd.json"; access(file.c_str(), R_OK) == 0)
+      return file;
+  throw Error(ErrorKind::no_gl_driver, "Vulkan", "there is no SwiftShader",
+              "install chromium-common, or name its vk_swiftshader_icd.json in VK_DRIVER_FILES");
+}
+
+bool is_wanted(const VkPhysicalDeviceProperties& device, VulkanDriver driver) {
+  if (device.apiVersion < VK_API_VERSION_1_3) return false;
+  if (driver == VulkanDriver::swiftshader)
+    return std::string_view(device.deviceName).find("SwiftShader") != std::string_view::npos;
+  return driver == VulkanDriver::first || device.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+}
+
+Error no_device_of(VulkanDriver driver) {
+  if (driver == VulkanDriver::swiftshader) return no_device("the driver's files have no SwiftShader of Vulkan 1.3");
+  return no_device(driver == VulkanDriver::software ? "there is no software device of Vulkan 1.3"
+                                                    : "there is no device of Vulkan 1.3");
+}
+
+}  // namespace
+
+VulkanDevice::VulkanDevice(VulkanDriver driver) {
   require_threads_of_library("a driver of Vulkan");
-  instance_ = make_instance(vk_);
+  instance_ = make_instance(vk_, driver == VulkanDriver::swiftshader ? swiftshader_manifest() : "");
   at_end([this] { vk_.vkDestroyInstance(instance_, nullptr); });
   uint32_t count = 0;
   vk_.vkEnumeratePhysicalDevices(instance_, &count, nullptr);
@@ -99,8 +131,7 @@ VulkanDevice::VulkanDevice(bool software) {
   for (const VkPhysicalDevice device : devices) {
     VkPhysicalDeviceProperties properties{};
     vk_.vkGetPhysicalDeviceProperties(device, &properties);
-    if (software && properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU) continue;
-    if (properties.apiVersion < VK_API_VERSION_1_3) continue;
+    if (!is_wanted(properties, driver)) continue;
     physical_ = device;
     info_.subpixel_bits = int(properties.limits.subPixelPrecisionBits);
     info_.largest_image = properties.limits.maxImageDimension2D;
@@ -111,8 +142,7 @@ VulkanDevice::VulkanDevice(bool software) {
                  std::to_string(VK_API_VERSION_PATCH(properties.apiVersion));
     break;
   }
-  if (physical_ == VK_NULL_HANDLE)
-    throw no_device(software ? "there is no software device of Vulkan 1.3" : "there is no device of Vulkan 1.3");
+  if (physical_ == VK_NULL_HANDLE) throw no_device_of(driver);
   open_device();
 }
 

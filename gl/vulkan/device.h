@@ -23,6 +23,13 @@ struct VulkanImage {
   VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
 };
 
+/// Which of the machine's devices to open.
+enum class VulkanDriver : uint8_t {
+  first,        ///< of Vulkan 1.3 that draws
+  software,     ///< the first that is a CPU: lavapipe, say
+  swiftshader,  ///< of the files that VK_DRIVER_FILES names, or of Chromium's or Chrome's own
+};
+
 /// What a device is and can do.
 struct VulkanInfo {
   std::string line;  ///< its name, driver and version
@@ -40,9 +47,8 @@ VkFormat vulkan_format(Format format);
 /// A device without a window, with one queue. What is made on it lives as long as it does.
 class VulkanDevice {
  public:
-  /// Of the machine's devices the first of Vulkan 1.3 that draws; with `software`, the first that is a CPU. Throws
-  /// Error(no_gl_driver) that says what is missing.
-  explicit VulkanDevice(bool software);
+  /// Throws Error(no_gl_driver) that says what is missing.
+  explicit VulkanDevice(VulkanDriver driver);
   VulkanDevice(const VulkanDevice&) = delete;
   VulkanDevice& operator=(const VulkanDevice&) = delete;
 

@@ -2,11 +2,39 @@
 
 #include <dlfcn.h>
 
+#include <cstdlib>
+#include <optional>
+
 #include "core/error.h"
 
 namespace trueshade::oracle {
 
-VkInstance make_instance(VulkanFunctions& functions) {
+namespace {
+
+/// A variable of the environment that has another value until this ends.
+class Setting {
+ public:
+  Setting(const char* name, const std::string& value) : name_(name) {
+    if (const char* const before = std::getenv(name)) before_ = before;
+    if (!value.empty()) setenv(name, value.c_str(), 1);
+  }
+  ~Setting() {
+    if (before_)
+      setenv(name_, before_->c_str(), 1);
+    else
+      unsetenv(name_);
+  }
+  Setting(const Setting&) = delete;
+  Setting& operator=(const Setting&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> before_;
+};
+
+}  // namespace
+
+VkInstance make_instance(VulkanFunctions& functions, const std::string& manifest) {
   const auto no_driver = [](const char* reason) {
     return Error(ErrorKind::no_gl_driver, "Vulkan", reason, "install mesa-vulkan-drivers, or a GPU's driver");
   };
@@ -22,6 +50,7 @@ VkInstance make_instance(VulkanFunctions& functions) {
   info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
   info.pApplicationInfo = &application;
   VkInstance instance = VK_NULL_HANDLE;
+  const Setting files("VK_DRIVER_FILES", manifest), older_name("VK_ICD_FILENAMES", manifest);  // read by the loader
   if (create(&info, nullptr, &instance) != VK_SUCCESS) throw no_driver("no driver gives an instance");
 #define LOAD(name) functions.name = reinterpret_cast<PFN_##name>(get(instance, #name));
   TRUESHADE_VULKAN_FUNCTIONS(LOAD)

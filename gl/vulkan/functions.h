@@ -2,6 +2,8 @@
 #define VK_NO_PROTOTYPES
 #include <vulkan/vulkan.h>
 
+#include <string>
+
 namespace trueshade::oracle {
 
 // The functions that Vulkan hands out for an instance. Each is a member that has the function's name.
@@ -39,7 +41,8 @@ struct VulkanFunctions {
 };
 
 /// An instance of Vulkan 1.3, and its functions. Throws Error(no_gl_driver) where there is no libvulkan.so.1.
-VkInstance make_instance(VulkanFunctions& functions);
+///   manifest: of the one driver that the loader is to open; empty: of those that it knows
+VkInstance make_instance(VulkanFunctions& functions, const std::string& manifest);
 
 /// A structure with its type set and all else zero.
 template <typename T>

@@ -337,8 +337,8 @@ class VulkanDrawing {
 
 }  // namespace
 
-VulkanFrame drawn_by_vulkan(const Scene& scene, const Pipeline& pipeline, bool software, const VulkanDraw& draw) {
-  VulkanDevice device(software);
+VulkanFrame drawn_by_vulkan(const Scene& scene, const Pipeline& pipeline, VulkanDriver driver, const VulkanDraw& draw) {
+  VulkanDevice device(driver);
   GlslOptions options = scene_options(scene);
   options.version = version_of(ShaderApi::vulkan);
   options.primitive = device.info().primitive_ids;

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "gl/vulkan/device.h"
 #include "oracle/capture.h"
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
@@ -21,8 +22,8 @@ struct VulkanFrame {
 };
 
 /// Draws a scene's frame, before the post chain, on a device that is opened for it: the same list of draws that
-/// `trueshade glsl --api vulkan` writes. `software`: a CPU's, lavapipe say; else the first there is. Throws
-/// Error(no_gl_driver) where there is no device, or not enough of one.
-VulkanFrame drawn_by_vulkan(const Scene& scene, const Pipeline& pipeline, bool software, const VulkanDraw& draw = {});
+/// `trueshade glsl --api vulkan` writes. Throws Error(no_gl_driver) where there is no device, or not enough of one.
+VulkanFrame drawn_by_vulkan(const Scene& scene, const Pipeline& pipeline, VulkanDriver driver,
+                            const VulkanDraw& draw = {});
 
 }  // namespace trueshade::oracle

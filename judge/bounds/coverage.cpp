@@ -52,6 +52,12 @@ EdgeSpan edge_span_of_box(const WindowVertex& a, const WindowVertex& b, const Pa
   return {all.low - 0x1p-46 * size, all.high + 0x1p-46 * size};
 }
 
+/// Whether lower edges are in, where the profile says which are.
+bool owns_low_side(FillRule fill, ClipOrigin origin) {
+  if (fill == FillRule::left_first || fill == FillRule::left_last) return fill == FillRule::left_first;
+  return (fill == FillRule::left_low) == (origin == ClipOrigin::lower_left);
+}
+
 /// Whether a sample on the edge a -> b of a counter-clockwise triangle belongs to it.
 bool owns_edge(const WindowVertex& a, const WindowVertex& b, int sign, bool low_side) {
   const double dx = sign * (b.low[0] - a.low[0]), dy = sign * (b.low[1] - a.low[1]);
@@ -82,8 +88,7 @@ Coverage coverage_at(const Piece& piece, const Profile& profile, ClipOrigin orig
     if (e.high < 0) return {};
     if (e.low > 0) continue;
     if (e.low == 0 && e.high == 0 && profile.fill != FillRule::unstated) {
-      const bool low_side = (profile.fill == FillRule::left_low) == (origin == ClipOrigin::lower_left);
-      if (!owns_edge(a, b, piece.sign, low_side)) return {};
+      if (!owns_edge(a, b, piece.sign, owns_low_side(profile.fill, origin))) return {};
       continue;
     }
     result.cover = Cover::maybe;

@@ -138,6 +138,31 @@ void Projector::weigh_linearly(const std::array<ClipVertex, 3>& corners, WindowV
       }
 }
 
+/// Where the planes of a cut triangle go through the vertices submitted, a vertex that clipping made is not moved by
+/// any grid of its own: it moves as the plane does, by the sum of their moves times its weights, which are beyond [0,
+/// 1] where one of them is behind the eye. Moves turn the plane too: a share of the triangle's area.
+void Projector::lean_on(const std::array<WindowVertex, 3>& submitted, WindowVertex& v) const {
+  const Pair &a = submitted[0].plane, &b = submitted[1].plane, &c = submitted[2].plane;
+  const double area = std::fabs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+  double turned = 0;
+  Pair reach{};
+  v.u_error = v.z_error = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    const WindowVertex &p = submitted[k], &q = submitted[(k + 1) % 3];
+    turned += std::fabs(p.plane[0] - q.plane[0]) * (p.plane_reach[1] + q.plane_reach[1]) +
+              std::fabs(p.plane[1] - q.plane[1]) * (p.plane_reach[0] + q.plane_reach[0]);
+    const double weight = std::fabs(v.linear[k]);
+    for (size_t axis = 0; axis < 2; ++axis)
+      reach[axis] += weight * (p.plane_reach[axis] + std::fabs(p.plane[axis] - p.exact[axis]));
+    v.u_error += weight * p.u_error, v.z_error += weight * p.z_error;
+  }
+  const double left = area - turned;
+  for (size_t axis = 0; axis < 2; ++axis) {
+    v.plane[axis] = v.exact[axis];
+    v.plane_reach[axis] = left > 0 ? reach[axis] * area / left : HUGE_VAL;
+  }
+}
+
 std::vector<WindowVertex> Projector::corners_of(const std::vector<ClipVertex>& polygon) const {
   std::vector<WindowVertex> corners;
   for (const ClipVertex& v : polygon) corners.push_back(window_vertex(v, true));
@@ -176,6 +201,10 @@ void Projector::pieces(uint32_t instance, uint32_t triangle, std::vector<Piece>&
     for (int plane = kFirstSide; plane < kPlanes && leaves && profile_.clips_to_view; ++plane) cut(left, plane);
     if (leaves && profile_.clips_to_view) polygons->push_back(corners_of(left));
   }
+  std::shared_ptr<const std::array<WindowVertex, 3>> submitted;
+  if (!inside && profile_.planes == PlaneForm::homogeneous)
+    submitted = std::make_shared<const std::array<WindowVertex, 3>>(std::array{
+        window_vertex(corners[0], false), window_vertex(corners[1], false), window_vertex(corners[2], false)});
   const std::span<const ClipVertex> polygon = inside ? std::span<const ClipVertex>(corners) : cut_polygon;
   for (size_t i = 1; i + 1 < polygon.size(); ++i) {
     Piece piece;
@@ -185,6 +214,8 @@ void Projector::pieces(uint32_t instance, uint32_t triangle, std::vector<Piece>&
     const ClipVertex* of[3] = {&polygon[0], &polygon[i], &polygon[i + 1]};
     for (size_t k = 0; k < 3; ++k) piece.v[k] = window_vertex(*of[k], piece.leaves_view || piece.cut);
     for (size_t k = 0; k < 3 && piece.cut; ++k) weigh_linearly(corners, piece.v[k]);
+    piece.submitted = submitted;
+    for (size_t k = 0; k < 3 && submitted; ++k) lean_on(*submitted, piece.v[k]);
     if (face(faces, piece)) out.push_back(piece);
   }
 }

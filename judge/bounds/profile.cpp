@@ -93,7 +93,10 @@ std::string text(const StoreRule& rule) {
                       : rule.code_reach > 0.5 ? "codes within 0.6"
                                               : "codes to nearest";
   if (rule.sums_in_floats) codes += ", sums kept in floats";
-  return codes + ", halves " + (rule.half == HalfStore::nearest ? "to nearest" : "toward zero");
+  return codes + ", halves " +
+         (rule.half == HalfStore::nearest          ? "to nearest"
+          : rule.half == HalfStore::through_halves ? "to nearest, smaller floats by them"
+                                                   : "toward zero");
 }
 
 const char* text(SnapRule rule) {
@@ -128,6 +131,8 @@ const char* text(HalfStore store) {
       return "toward zero";
     case HalfStore::nearest:
       return "nearest";
+    case HalfStore::through_halves:
+      return "through halves";
     case HalfStore::either:
       return "either";
   }

@@ -18,8 +18,27 @@ enum class SnapRule : uint8_t {
   unstated,     ///< anywhere within 0.6 of 2^-b: the two above, finer grids and none at all lie inside
 };
 enum class PlaneOrigin : uint8_t { snapped, unsnapped, either };
-enum class FillRule : uint8_t { left_low, left_high, unstated };  ///< which horizontal edge is in; GL window, y up
-enum class HalfStore : uint8_t { toward_zero, nearest, either };
+/// Which horizontal edge is in, beside the left one. GL window, y up.
+enum class FillRule : uint8_t {
+  left_low,   ///< the lower one; the upper one where the clip origin is the upper left
+  left_high,  ///< the other one of these
+  unstated,
+  left_first,  ///< the lower one, whatever the clip origin (Vulkan: memory's first rows)
+  left_last,   ///< the upper one, whatever the clip origin
+};
+enum class HalfStore : uint8_t {
+  toward_zero,
+  nearest,
+  either,
+  through_halves,  ///< to the nearest half, the larger of two; floats of 11 and 10 bits are that half, cut
+                   ///< (SwiftShader)
+};
+/// How the planes of attributes and of 1 / w are made.
+enum class PlaneForm : uint8_t {
+  differences,  ///< through the vertices of what clipping leaves, by differences of their values
+  homogeneous,  ///< sums of the values of all three vertices that were submitted, also those behind the eye, times the
+                ///< gradients of their weights (Olano and Greer, 1997): a constant is a sum of terms that cancel
+};
 enum class BlendRule : uint8_t {
   any_precision,  ///< no less than the target's (GL 4.6 core, 17.3.6): anything from its codes to real numbers, fused
                   ///< or not
@@ -66,6 +85,7 @@ struct Profile {
   SnapRule snap = SnapRule::unstated;
   FillRule fill = FillRule::unstated;
   PlaneOrigin plane_origin = PlaneOrigin::either;
+  PlaneForm planes = PlaneForm::differences;
   bool exact_vertices = false;  ///< clip coordinates and vertex attributes are those of docs/arithmetic.md, bit for bit
   bool exact_planes = false;    ///< attributes are within 1 ulp of the largest vertex value, inside the vertices' hull
   bool clips_to_view = true;    ///< triangles that leave the view may be cut at its sides and snapped again there

@@ -14,8 +14,9 @@ using Words = std::span<const std::string_view>;
 
 constexpr std::string_view kSnapRules[] = {"nearest", "nearest_0_6", "toward_zero", "unstated"};
 constexpr std::string_view kPlaneOrigins[] = {"snapped", "unsnapped", "either"};
-constexpr std::string_view kFillRules[] = {"left_low", "left_high", "unstated"};
-constexpr std::string_view kHalfStores[] = {"toward_zero", "nearest", "either"};
+constexpr std::string_view kPlaneForms[] = {"differences", "homogeneous"};
+constexpr std::string_view kFillRules[] = {"left_low", "left_high", "unstated", "left_first", "left_last"};
+constexpr std::string_view kHalfStores[] = {"toward_zero", "nearest", "either", "through_halves"};
 constexpr std::string_view kBlendRules[] = {"any_precision", "float_once", "mesa_codes"};
 
 /// Calls a visitor's member for each field of a profile, in the order of the file. What is read, written and allowed as
@@ -28,6 +29,7 @@ void visit_fields(AnyProfile& p, Visitor& v) {
   v.choice("snap", p.snap, kSnapRules);
   v.choice("fill", p.fill, kFillRules);
   v.choice("plane_origin", p.plane_origin, kPlaneOrigins);
+  v.choice("planes", p.planes, kPlaneForms);
   v.flag("exact_vertices", p.exact_vertices);
   v.flag("exact_planes", p.exact_planes);
   v.flag("clips_to_view", p.clips_to_view);

@@ -41,6 +41,9 @@ struct Piece {
   /// What is left of the triangle by near, far and w, and by the sides of the view too, where a driver may cut it into
   /// pieces of its own that a polygon offset tells apart; null elsewhere.
   std::shared_ptr<const std::vector<std::vector<WindowVertex>>> polygons{};
+  /// The vertices submitted, behind the eye too (u below 0), of a cut triangle whose planes go through these; else
+  /// null.
+  std::shared_ptr<const std::array<WindowVertex, 3>> submitted{};
 };
 
 /// How surely a piece has a sample.
@@ -122,6 +125,7 @@ class Projector {
   void cut(std::vector<ClipVertex>& polygon, int plane) const;
   double plane_distance(const ClipVertex& v, int plane) const;
   std::vector<WindowVertex> corners_of(const std::vector<ClipVertex>& polygon) const;
+  void lean_on(const std::array<WindowVertex, 3>& submitted, WindowVertex& v) const;
   void weigh_linearly(const std::array<ClipVertex, 3>& corners, WindowVertex& v) const;
   bool face(const Faces& faces, Piece& piece) const;
   Faces faces_of(uint32_t instance) const;

@@ -59,7 +59,7 @@ void Projector::snap(WindowVertex& v, int axis_index, const ClipVertex& clip, do
 WindowVertex Projector::window_vertex(const ClipVertex& c, bool leaves_view) const {
   WindowVertex v;
   v.weight = c.weight;
-  const double w = c.c[3], room = std::max(w - c.error[3], 0x1p-20 * w);
+  const double w = c.c[3], room = std::max(std::fabs(w) - c.error[3], 0x1p-20 * std::fabs(w));
   const bool exact = profile_.exact_vertices;
   for (int a = 0; a < 2; ++a) {
     const auto axis = size_t(a);
@@ -84,7 +84,7 @@ WindowVertex Projector::window_vertex(const ClipVertex& c, bool leaves_view) con
   const double v1 = profile_.arithmetic.roundoff;
   v.z_error = std::fabs(z_scale_) * (c.error[2] + std::fabs(ndc_z) * c.error[3]) / room +
               (profile_.arithmetic.divide + 2 * v1) * std::fabs(ndc_z * z_scale_) + 2 * v1 * std::fabs(z_offset_);
-  v.u_error = v.u * (c.error[3] / room + profile_.arithmetic.divide);
+  v.u_error = std::fabs(v.u) * (c.error[3] / room + profile_.arithmetic.divide);
   return v;
 }
 

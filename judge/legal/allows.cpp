@@ -27,6 +27,7 @@ bool stores_within(const Profile& loose, const Profile& tight) {
 
 bool allows_all_of(const Profile& loose, const Profile& tight) {
   return grid_within(loose, tight) && (loose.fill == FillRule::unstated || loose.fill == tight.fill) &&
+         (loose.planes == PlaneForm::homogeneous || loose.planes == tight.planes) &&
          (loose.plane_origin == PlaneOrigin::either || loose.plane_origin == tight.plane_origin) &&
          (!loose.exact_vertices || tight.exact_vertices) && (!loose.exact_planes || tight.exact_planes) &&
          (loose.clips_to_view || !tight.clips_to_view) && loose.least_depth_unit <= tight.least_depth_unit &&

@@ -10,9 +10,9 @@ struct PieceShape {
   /// reach: Projector::window_reach().
   PieceShape(const Piece& piece, const Profile& profile, const Pair& reach);
 
-  /// What the arithmetic of the plane through the vertex values may be off by anywhere in the window (SurfacePoint says
-  /// how it is made up).
-  double plane_error(const std::array<double, 3>& vertex) const;
+  /// What the arithmetic of a plane through the vertex values may be off by anywhere in the window (SurfacePoint says
+  /// how it is made up). Of attributes and of 1 / w, which follow PlaneForm.
+  double plane_error(const std::array<double, 3>& vertex) const { return plane_error(vertex, weighted_); }
 
   bool points = true;                ///< the vertices are points, not boxes
   std::array<double, 3> dx{}, dy{};  ///< gradients of the barycentrics, 1/pixel
@@ -23,6 +23,18 @@ struct PieceShape {
   Pair window_reach;
 
  private:
+  void find_setup(const Piece& piece);
+  double plane_error(const std::array<double, 3>& vertex, bool weighted) const;
+
+  /// The triangle that planes are set up from: the piece, or the triangle submitted. There the plane through a piece's
+  /// values has the values `from_piece` times these.
+  struct Setup {
+    std::array<double, 3> dx{}, dy{};
+    double span_x = 0, span_y = 0, area = 0, condition = 0;
+    double extent_x = 0, extent_y = 0;  ///< from a vertex in front of the eye to a sample
+    std::array<std::array<double, 3>, 3> from_piece{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  } setup_;
+  bool weighted_;
   double roundoff_, divide_;
 };
 

@@ -1,6 +1,7 @@
 #include "judge/legal/store.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "core/llvmpipe_srgb.h"
@@ -36,7 +37,28 @@ struct SmallFloat {
     if (x - low != high - x) return x - low < high - x ? low : high;
     return std::fmod(low / spacing(x), 2) == 0 ? low : high;
   }
-  double stored(double x, HalfStore mode) const { return mode == HalfStore::toward_zero ? toward_zero(x) : nearest(x); }
+  /// The nearest, and of two the larger in size.
+  double nearest_or_larger(double x) const {
+    const double size = std::fabs(x), low = below(size), high = above(size);
+    if (size >= largest() + spacing(largest()) / 2) return std::copysign(HUGE_VAL, x);
+    return low == high ? x : std::copysign(size - low < high - size ? low : high, x);
+  }
+  double through_halves(double x) const {
+    const double half = SmallFloat{10}.nearest_or_larger(x);
+    return has_sign() ? half : toward_zero(half);
+  }
+  double stored(double x, HalfStore mode) const {
+    if (mode == HalfStore::through_halves) return through_halves(x);
+    return mode == HalfStore::toward_zero ? toward_zero(x) : nearest(x);
+  }
+  /// How far beyond a value of the grid a store still gives it: away from zero, and toward zero.
+  std::array<double, 2> reach_of(double x, HalfStore mode) const {
+    const double unit = spacing(x);
+    if (mode == HalfStore::toward_zero) return {unit, x == 0 ? unit : 0};
+    if (mode == HalfStore::nearest || has_sign()) return {unit / 2, unit / 2};
+    const double half_unit = SmallFloat{10}.spacing(x) / 2;
+    return {unit - half_unit, x == 0 ? unit : half_unit};
+  }
 };
 
 double float_below(double x) {
@@ -143,22 +165,22 @@ LegalTexel srgb8(const Range& r, const Profile& profile) {
 LegalTexel small_float(Range r, const SmallFloat& grid, const Profile& profile) {
   if (!grid.has_sign()) r = {std::max(0.0, r.value), std::max(0.0, r.low), std::max(0.0, r.high)};
   LegalTexel t;
+  const HalfStore likely = profile.likely.half == HalfStore::either ? HalfStore::toward_zero : profile.likely.half;
+  const HalfStore mode = profile.half == HalfStore::either ? likely : profile.half;
   if (profile.half == HalfStore::either) {
-    t = {grid.stored(r.value, profile.likely.half == HalfStore::nearest ? HalfStore::nearest : HalfStore::toward_zero),
-         grid.below(r.low), grid.above(r.high)};
+    t = {grid.stored(r.value, mode), grid.below(r.low), grid.above(r.high)};
     if (r.high > grid.largest()) t.high = HUGE_VAL;  // to the largest or to infinity
     if (r.low < -grid.largest()) t.low = -HUGE_VAL;
   } else {
-    t = {grid.stored(r.value, profile.half), grid.stored(r.low, profile.half), grid.stored(r.high, profile.half)};
+    t = {grid.stored(r.value, mode), grid.stored(r.low, mode), grid.stored(r.high, mode)};
   }
   if (!grid.has_sign())
     for (double* end : {&t.nominal, &t.low, &t.high})
       if (std::isinf(*end) && !std::isinf(r.high)) *end = grid.largest();
   if (!std::isfinite(r.value)) return t;
-  const double spacing = grid.spacing(r.value);
-  const bool truncates = (profile.half == HalfStore::either ? profile.likely.half : profile.half) != HalfStore::nearest;
-  const double below = truncates && t.nominal > 0 ? t.nominal : t.nominal - (truncates ? spacing : spacing / 2);
-  const double above = truncates && t.nominal < 0 ? t.nominal : t.nominal + (truncates ? spacing : spacing / 2);
+  const auto [away, toward] = grid.reach_of(t.nominal, mode);
+  const double below = t.nominal - (t.nominal < 0 ? away : toward);
+  const double above = t.nominal + (t.nominal < 0 ? toward : away);
   set_chance(t, r, below, above);
   return t;
 }
@@ -170,8 +192,7 @@ Profile following(const StoreRule& rule, const Profile& profile) {
   p.likely = rule;
   p.unorm_reach = std::min(p.unorm_reach, rule.code_reach);
   p.srgb_reach = std::min(p.srgb_reach, rule.code_reach);
-  if (p.half == HalfStore::either)
-    p.half = rule.half == HalfStore::nearest ? HalfStore::nearest : HalfStore::toward_zero;
+  if (p.half == HalfStore::either) p.half = rule.half == HalfStore::either ? HalfStore::toward_zero : rule.half;
   if (p.blend != BlendRule::any_precision) return p;
   const Profile mesa = *profile_named("mesa-llvmpipe-22.3");
   p.blend = rule.mesa_codes ? BlendRule::mesa_codes : BlendRule::float_once;
@@ -197,6 +218,9 @@ Range cleared_range(double color, Format format, int channel, const Profile& pro
         break;
       }
   }
+  // SwiftShader clears by other means than it draws by: to the nearest.
+  if (layout.small_float() && layout.packed() && profile.half == HalfStore::through_halves)
+    c = SmallFloat{layout.bits[size_t(channel)] - 5}.nearest(std::max(color, 0.0));
   if (wide && profile.blend == BlendRule::mesa_codes) {
     const float scaled = float(std::clamp(color, 0.0, 1.0)) * float(layout.largest_code(channel));
     LegalTexel code;

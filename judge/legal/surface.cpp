@@ -69,7 +69,7 @@ void SurfacePoint::find_samples(double x, double y, Within within) {
 
 void SurfacePoint::no_plane(double x, double y) {
   bounded_ = false;
-  if (profile_.exact_planes || profile_.plane_origin == PlaneOrigin::unsnapped) return;
+  if (profile_.exact_planes || profile_.plane_origin == PlaneOrigin::unsnapped || piece_.submitted) return;
   tiny_ = Tiny::hull;
   if (profile_.plane_origin == PlaneOrigin::snapped) return;
   bool same = true;

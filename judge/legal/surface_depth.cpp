@@ -97,7 +97,9 @@ Range SurfacePoint::depth_offset(const GeometryState& state, double largest) con
 Range stored_depth(const SurfacePoint& point, const GeometryState& state, const Profile& profile, double largest) {
   const double near = double(state.depth_near), far = double(state.depth_far), codes = fixed_point_codes(state);
   const bool offset = state.polygon_offset_factor != 0 || state.polygon_offset_units != 0;
-  const bool whole = offset && !state.depth_clamp;
+  // A depth beyond the viewport's range, as a plane through moved vertices may have it, is held to that range under
+  // depth clamp alone (GL 4.6 core, 17.3.4; Vulkan 1.3, "Depth Clamping and Range Adjustment").
+  const bool whole = !state.depth_clamp && (offset || !profile.exact_planes);
   const double low = whole ? 0 : std::min(near, far), high = whole ? 1 : std::max(near, far);
   Range z = point.depth();
   if (offset) {

@@ -116,20 +116,30 @@ std::vector<ProbeKnob> probe_knobs() {
   constexpr auto kArithmetic = &Profile::arithmetic;
   constexpr auto kSampling = &Profile::sampling;
   return {
+      {"planes",
+       surfaces,
+       false,
+       {{"differences", [](Profile& p) { p.planes = PlaneForm::differences; }},
+        {"homogeneous", [](Profile& p) { p.planes = PlaneForm::homogeneous; }}},
+       true},
       grid(),
       choice<Set>("fill", surfaces,
                   {{"left_low", [](Profile& p) { p.fill = FillRule::left_low; }},
-                   {"left_high", [](Profile& p) { p.fill = FillRule::left_high; }}}),
+                   {"left_high", [](Profile& p) { p.fill = FillRule::left_high; }},
+                   {"left_first", [](Profile& p) { p.fill = FillRule::left_first; }},
+                   {"left_last", [](Profile& p) { p.fill = FillRule::left_last; }}}),
       choice<Set>("plane_origin", surfaces,
                   {{"snapped", [](Profile& p) { p.plane_origin = PlaneOrigin::snapped; }},
                    {"unsnapped", [](Profile& p) { p.plane_origin = PlaneOrigin::unsnapped; }}}),
       choice<Set>("least_depth_unit, most_depth_unit", surfaces,
                   {{"1, 1", [](Profile& p) { p.least_depth_unit = p.most_depth_unit = 1; }},
+                   {"1.0099, 1.0101", [](Profile& p) { p.least_depth_unit = 1.0099, p.most_depth_unit = 1.0101; }},
                    {"2, 2", [](Profile& p) { p.least_depth_unit = p.most_depth_unit = 2; }}}),
       numbers("arithmetic.roundoff", all, kArithmetic, &Arithmetic::roundoff, {0, 0.5 * kUlp, kUlp}),
       choice<Set>("half", all,
                   {{"toward_zero", [](Profile& p) { p.half = HalfStore::toward_zero; }},
-                   {"nearest", [](Profile& p) { p.half = HalfStore::nearest; }}}),
+                   {"nearest", [](Profile& p) { p.half = HalfStore::nearest; }},
+                   {"through_halves", [](Profile& p) { p.half = HalfStore::through_halves; }}}),
       choice<Set>("blend", blending,
                   {{"float_once", [](Profile& p) { p.blend = BlendRule::float_once; }},
                    {"mesa_codes", [](Profile& p) { p.blend = BlendRule::mesa_codes; }}}),
@@ -149,7 +159,8 @@ std::vector<ProbeKnob> probe_knobs() {
       choice<Set>("sampling.mesa_decode", maps,
                   {{"true", [](Profile& p) { p.sampling.mesa_decode = true, p.sampling.srgb_codes = 0.1; }},
                    {"false", [](Profile& p) { p.sampling.mesa_decode = false, p.sampling.srgb_codes = 0.1; }}}),
-      numbers("sampling.srgb_codes", maps, kSampling, &Sampling::srgb_codes, {0x1p-10, 0.05, 0.1, 0.35, 0.5}, true),
+      numbers("sampling.srgb_codes", maps, kSampling, &Sampling::srgb_codes,
+              {0x1p-10, 0x1p-8, 0x1p-6, 0.05, 0.1, 0.35, 0.5}, true),
       numbers("sampling.lod_error", maps, kSampling, &Sampling::lod_error,
               {0, 0x1p-10, 0x1p-8, 0x1p-7, 0x1p-6, 0.045, 0.05}),
       numbers("sampling.relative", maps, kSampling, &Sampling::relative, {0, kUlp, 2 * kUlp, 4 * kUlp, 8 * kUlp}),
@@ -212,8 +223,10 @@ class Probe {
 ProbeResult probe_profile(const std::vector<ProbeFrame>& frames, const std::string& name) {
   std::vector<const ProbeFrame*> legal;
   std::vector<std::string> set_aside;
+  Profile widest;
+  widest.planes = PlaneForm::homogeneous;
   for (const ProbeFrame& frame : frames) {
-    if (is_explained(frame, Profile{}, TellsBy::all))
+    if (is_explained(frame, widest, TellsBy::all))
       legal.push_back(&frame);
     else
       set_aside.push_back(frame.plan->name);

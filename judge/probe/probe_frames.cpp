@@ -1,5 +1,7 @@
 #include "judge/probe/probe_frames.h"
 
+#include <cmath>
+
 #include "scenes/builtin/pcg32.h"
 
 namespace trueshade::oracle {
@@ -33,11 +35,20 @@ void add_lights(Scene& scene, Pcg32& random) {
   }
 }
 
-Scene shards(Pcg32& random) {
+/// A shard that reaches behind the camera, of one colour: its planes are seen far from some of its corners.
+void add_shard_behind_eye(Mesh& mesh, Pcg32& random) {
+  add_shard(mesh, random);
+  for (size_t corner = mesh.vertex_count() - 3; corner < mesh.vertex_count(); ++corner) {
+    mesh.position[2][corner] += float(corner % 3 == 0 ? 0 : random.between(2, 12));
+    for (size_t k = 0; k < 4; ++k) mesh.color[k][corner] = mesh.color[k][mesh.vertex_count() - 3];
+  }
+}
+
+Scene shards(Pcg32& random, void (*add)(Mesh&, Pcg32&) = add_shard) {
   Scene scene;
   scene.spec = "probe";
   scene.meshes.resize(1);
-  for (int i = 0; i < kShards; ++i) add_shard(scene.meshes[0], random);
+  for (int i = 0; i < kShards; ++i) add(scene.meshes[0], random);
   scene.materials.push_back({"", {0.9f, 0.8f, 0.7f, 1.0f}});
   scene.instances.push_back({});
   scene.camera.eye = {0.0f, 0.0f, 5.0f};
@@ -95,6 +106,28 @@ Scene aligned_squares(Pcg32& random) {
   return scene;
 }
 
+/// The same squares under a map, each at another number of texels a pixel, the same along both axes: what there is of
+/// rho is one number, and the level shows how its logarithm is made. Where a texel is as large as a pixel its value is
+/// seen.
+Scene scaled_squares(Pcg32& random) {
+  Scene scene = aligned_squares(random);
+  Mesh& mesh = scene.meshes[0];
+  for (FloatStream& channel : mesh.color) channel = {};
+  scene.textures.push_back(noise(TextureFormat::srgb8_a8, random));
+  TextureSlot& slot = scene.materials[0].color_map;
+  slot.texture = 0;
+  slot.sampler.mag_filter = slot.sampler.min_filter = Filter::nearest;
+  slot.sampler.mip_filter = MipFilter::linear;
+  const double side = scene.textures[0].levels[0].width;
+  for (size_t first = 0; first < mesh.vertex_count(); first += 4) {
+    const double texels = std::exp2(random.between(-1.5, 4)), pixels = 32;  // of half the window
+    for (size_t corner = first; corner < first + 4; ++corner)
+      for (size_t k = 0; k < 2; ++k)
+        mesh.uv[k].push_back(float(double(mesh.position[k][corner]) * pixels * texels / side));
+  }
+  return scene;
+}
+
 /// White ambient light and nothing else: the target is the albedo as it is read back.
 Scene in_ambient_light(Scene scene) {
   scene.lights.resize(1);
@@ -124,9 +157,9 @@ Pipeline of_halves(Pipeline p) {
   return p;
 }
 
-Pipeline offset(Pipeline p, Format depth) {
+Pipeline offset(Pipeline p, Format depth, float factor = 1.5f, float units = 37.0f) {
   p.geometry.depth_format = depth;
-  p.geometry.polygon_offset_factor = 1.5f, p.geometry.polygon_offset_units = 37.0f;
+  p.geometry.polygon_offset_factor = factor, p.geometry.polygon_offset_units = units;
   return p;
 }
 
@@ -165,6 +198,17 @@ std::vector<ProbePlan> probe_plans(uint64_t seed) {
               .c_str(),
           mapped_shards(random, format, mip), p);
     }
+  Pipeline floats = plan_pipeline(deferred_loop, Format::rgba32f);
+  floats.gbuffer.albedo.format = Format::rgba32f;
+  add("shards behind the eye", shards(random, add_shard_behind_eye), floats);
+  add("shards into r11g11b10f", shards(random), plan_pipeline(deferred_loop, Format::r11g11b10f));
+  Pipeline faced = aligned;
+  faced.gbuffer.albedo.format = Format::rgba32f;
+  add("squares under a map", scaled_squares(random), faced);
+  aligned.geometry.clip_origin = ClipOrigin::upper_left;
+  add("squares on centres, from the upper left", aligned_squares(random), aligned);
+  add("shards at an offset of many units", shards(random),
+      offset(plan_pipeline(deferred_loop, Format::rgba8), Format::d16, 0.0f, -4095.0f));
   return plans;
 }
 

@@ -12,10 +12,12 @@ constexpr StoreRule kIntelCodes{0.5, true, false, HalfStore::either, true};
 /// The rules that are known, the likeliest first, as far as the profile leaves them open.
 std::vector<StoreRule> other_rules(const StoreRule& stated, const Profile& profile) {
   std::vector<StoreRule> rules;
-  const HalfStore other_half = stated.half == HalfStore::nearest ? HalfStore::toward_zero : HalfStore::nearest;
   const bool open_codes = profile.unorm_reach == 1.0 && profile.blend == BlendRule::any_precision;
-  for (const HalfStore half : {stated.half, other_half}) {
-    if (half != stated.half && profile.half != HalfStore::either) continue;
+  std::vector<HalfStore> halves{stated.half};
+  if (profile.half == HalfStore::either)
+    for (const HalfStore half : {HalfStore::toward_zero, HalfStore::nearest, HalfStore::through_halves})
+      if (half != stated.half) halves.push_back(half);
+  for (const HalfStore half : halves) {
     for (const StoreRule& codes :
          {StoreRule{}, StoreRule{0.6}, StoreRule{0.5, true}, kIntelCodes, StoreRule{0.5, false, true}}) {
       StoreRule rule = codes;

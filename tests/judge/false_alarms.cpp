@@ -116,7 +116,7 @@ TEST_CASE("Of ten thousand images as D3D11.3 has them at most one is rejected by
 namespace {
 
 void check_ours(testing::FrameTheme theme, uint64_t first, int count) {
-  testing::check_random_frames({"ours", "unknown", theme, first, count}, [](const testing::RandomFrame& frame) {
+  testing::check_random_frames({"ours", {}, theme, first, count}, [](const testing::RandomFrame& frame) {
     testing::DrawnFrame drawn;
     drawn.capture = testing::captured(frame.scene, frame.pipeline);
     return drawn;

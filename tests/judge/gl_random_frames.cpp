@@ -24,7 +24,7 @@ DrawnFrame drawn_by(const GlContext& context, const RandomFrame& frame) {
 void check_llvmpipe(FrameTheme theme, uint64_t first, int count) {
   const GlContext* const context = opened(oracle::GlDriver::llvmpipe);
   if (context == nullptr) return;
-  check_random_frames({"llvmpipe", "unknown", theme, first, count},
+  check_random_frames({"llvmpipe", {}, theme, first, count},
                       [context](const RandomFrame& frame) { return drawn_by(*context, frame); });
 }
 

@@ -41,6 +41,7 @@ TEST_CASE("A probe of our own frames tells the rules that docs/arithmetic.md sta
     const ProbeResult result = probe_profile(our_frames(plans, half_round), "ours");
     auto fields = told(result);
     CAPTURE(profile_json(result.profile));
+    CHECK(fields["planes"] == "differences");
     CHECK(fields["subpixel_bits, snap"] == "8, nearest");
     CHECK(fields["fill"] == "left_low");
     CHECK(fields["plane_origin"] == "snapped");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 
 #include "core/error.h"
 #include "judge/stages/validate.h"
@@ -37,7 +38,7 @@ std::string reason_of(const Verdict& v) {
 
 class FrameTrial {
  public:
-  explicit FrameTrial(const RandomFrames& asked) : asked_(asked), profile_(*profile_named(asked.profile)) {}
+  explicit FrameTrial(const RandomFrames& asked) : asked_(asked), profile_(asked.profile) {}
 
   void judge(uint64_t seed, const FrameDrawer& drawer) {
     const RandomFrame frame = random_frame(seed, asked_.theme);
@@ -46,9 +47,15 @@ class FrameTrial {
       drawn = drawer(frame);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::no_gl_driver && error.kind() != ErrorKind::limit) throw;
-      ++refused_;
+      const std::string why = error.what();
+      ++refused_[why.substr(0, why.rfind(" ("))];  // without the remedy
       return;
     }
+    if (asked_.left_out)
+      if (const std::string why = asked_.left_out(frame, drawn); !why.empty()) {
+        ++refused_[why];
+        return;
+      }
     profile_.subpixel_bits = drawn.subpixel_bits;
     try {
       hold(seed, frame, drawn);
@@ -58,11 +65,14 @@ class FrameTrial {
   }
 
   void tell() const {
+    int refused = 0;
+    for (const auto& [why, count] : refused_) refused += count;
     std::printf("random frames by %s, theme %d: %d, not drawn %d, alarms %d\n", asked_.drawer.c_str(),
-                int(asked_.theme), asked_.count, refused_, alarms_);
+                int(asked_.theme), asked_.count, refused, alarms_);
+    for (const auto& [why, count] : refused_) std::printf("  not drawn %d: %s\n", count, why.c_str());
     std::fflush(stdout);
     CHECK(alarms_ == 0);
-    CHECK(refused_ <= asked_.count / 3);
+    CHECK(refused <= int(asked_.most_refused * asked_.count));
   }
 
  private:
@@ -91,7 +101,8 @@ class FrameTrial {
 
   const RandomFrames& asked_;
   Profile profile_;
-  int refused_ = 0, alarms_ = 0;
+  std::map<std::string, int> refused_;  ///< by what is in the way
+  int alarms_ = 0;
 };
 
 }  // namespace

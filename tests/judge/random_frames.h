@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "judge/bounds/profile.h"
 #include "oracle/capture.h"
 #include "tests/judge/random_frame.h"
 
@@ -20,11 +21,14 @@ struct DrawnFrame {
 using FrameDrawer = std::function<DrawnFrame(const RandomFrame&)>;
 
 struct RandomFrames {
-  std::string drawer;               ///< of the line that says what was judged
-  std::string profile = "unknown";  ///< what frames are held to
+  std::string drawer;       ///< of the line that says what was judged
+  oracle::Profile profile;  ///< what frames are held to, but for the subpixel bits, which the driver states
   FrameTheme theme = FrameTheme::any;
   uint64_t first = 1;  ///< seed
   int count = 0;
+  double most_refused = 1.0 / 3;  ///< share of the frames that may be left out, or not drawn
+  /// Why a frame is left out, where the driver is known to be wrong there; empty of others.
+  std::function<std::string(const RandomFrame&, const DrawnFrame&)> left_out{};
 };
 
 /// Checks that none of the frames has a violation or is convicted, as a capture from files and, where its steps are

@@ -19,7 +19,7 @@ bool has_lavapipe() {
     try {
       Pipeline tiny;
       tiny.width = tiny.height = 1;
-      drawn_by_vulkan(builtin_scene("cornell"), tiny, true);
+      drawn_by_vulkan(builtin_scene("cornell"), tiny, VulkanDriver::software);
       return true;
     } catch (const Error& error) {
       WARN("SKIPPED: " << error.what());
@@ -44,14 +44,16 @@ Verdict judged(const Scene& scene, const Pipeline& pipeline, const Capture& capt
   options.profile = *profile_named("vulkan");
   options.profile.subpixel_bits = 8;
   if (blends_lights(pipeline.strategy))
-    options.steps = [&](const StepSink& sink) { drawn_by_vulkan(scene, pipeline, true, {sink, {}}); };
+    options.steps = [&](const StepSink& sink) { drawn_by_vulkan(scene, pipeline, VulkanDriver::software, {sink, {}}); };
   if (draws_transparent(scene, pipeline))
-    options.objects = [&](const StepSink& sink) { drawn_by_vulkan(scene, pipeline, true, {{}, sink}); };
+    options.objects = [&](const StepSink& sink) {
+      drawn_by_vulkan(scene, pipeline, VulkanDriver::software, {{}, sink});
+    };
   return validate_capture(scene, pipeline, capture, options);
 }
 
 void check_lavapipe(const Scene& scene, const Pipeline& pipeline) {
-  const VulkanFrame frame = drawn_by_vulkan(scene, pipeline, true);
+  const VulkanFrame frame = drawn_by_vulkan(scene, pipeline, VulkanDriver::software);
   CHECK(frame.subpixel_bits == 8);
   const Verdict verdict = judged(scene, pipeline, frame.capture);
   CHECK(verdict.violations() == 0);
@@ -116,12 +118,13 @@ TEST_CASE("A frame of lavapipe's under another light is in no legal set") {
   Scene brighter = scene;
   for (Light& light : brighter.lights) light.color *= 1.1f;
   const Pipeline pipeline = small(presets().front().pipeline, Strategy::deferred_loop);
-  CHECK(judged(scene, pipeline, drawn_by_vulkan(brighter, pipeline, true).capture).violations() > 100);
+  CHECK(judged(scene, pipeline, drawn_by_vulkan(brighter, pipeline, VulkanDriver::software).capture).violations() >
+        100);
 }
 
 TEST_CASE("What a Vulkan device cannot hold, draw into or blend is refused in one line that says the limit") {
   if (!has_lavapipe()) return;
-  VulkanDevice device(true);
+  VulkanDevice device(VulkanDriver::software);
   const VulkanInfo& info = device.info();
   REQUIRE(info.largest_image >= 4096);  // Vulkan 1.3, table 53: the least that maxImageDimension2D may be
   REQUIRE(info.most_texels >= 65536);   // and maxTexelBufferElements
@@ -152,7 +155,7 @@ TEST_CASE("What a Vulkan device cannot hold, draw into or blend is refused in on
                 " does not blend into the format of id.object");
   Pipeline wide;  // the same where a frame is drawn
   wide.width = beyond, wide.height = 1;
-  check_refused([&] { drawn_by_vulkan(builtin_scene("cornell"), wide, true); }, images);
+  check_refused([&] { drawn_by_vulkan(builtin_scene("cornell"), wide, VulkanDriver::software); }, images);
 }
 
 TEST_CASE("A border that Vulkan has not is refused with what helps, and passed over where no sampler reads it") {
@@ -163,7 +166,7 @@ TEST_CASE("A border that Vulkan has not is refused with what helps, and passed o
   const auto bordered = [&](Wrap wrap) {
     for (Material& m : scene.materials)
       m.color_map.sampler.wrap = {Wrap::repeat, wrap}, m.color_map.sampler.border = {0.25f, 0.5f, 1.0f, 1.0f};
-    return drawn_by_vulkan(scene, pipeline, true).capture.color;
+    return drawn_by_vulkan(scene, pipeline, VulkanDriver::software).capture.color;
   };
   CHECK(bordered(Wrap::mirrored_repeat).width == 32);
   try {

@@ -5,7 +5,7 @@ namespace trueshade::testing {
 
 RowDrawer lavapipe_drawer(const Scene& scene) {
   return [&scene](const Pipeline& pipeline, const oracle::StepSink& sink) {
-    return oracle::drawn_by_vulkan(scene, pipeline, true, {sink, {}}).capture;
+    return oracle::drawn_by_vulkan(scene, pipeline, oracle::VulkanDriver::software, {sink, {}}).capture;
   };
 }
 
