@@ -71,18 +71,20 @@ class TieFinder {
     return best;
   }
 
-  /// How far the pixel's position, normal and depth are from the middle of the possible surface's.
+  /// How far the pixel's position, normal and depth are outside of what the possible surface's may be, and a little of
+  /// how far from their middle: a normal map's texels may be far from it and legal, and stores round.
   double difference(const PossibleSurface& c, int x, int y_top) const {
     const SurfaceValues values(projector_, c, x + 0.5, pipeline_.height - 1 - y_top + 0.5);
     const GBufferState& planes = pipeline_.gbuffer;
     double off = 0;
+    const auto add = [&off](const Range& legal, double stored) {
+      off += std::max({0.0, legal.low - stored, stored - legal.high}) + std::fabs(legal.value - stored) / 64;
+    };
     for (int k = 0; k < 3 && normal_; ++k)
-      off += std::fabs(values.normal(k, planes.normal.interpolation).value - normal_.image->value(x, y_top, k));
+      add(values.normal(k, planes.normal.interpolation), normal_.image->value(x, y_top, k));
     for (int k = 0; k < 3 && position_; ++k)
-      off += std::fabs(values.attribute(kPosition + size_t(k), planes.position.interpolation).value -
-                       position_.image->value(x, y_top, k));
-    if (depth_)
-      off += std::fabs(values.depth().value - depth_in_buffer(pipeline_.geometry, depth_.stored(x, y_top, 0)));
+      add(values.attribute(kPosition + size_t(k), planes.position.interpolation), position_.image->value(x, y_top, k));
+    if (depth_) add(values.depth(), depth_in_buffer(pipeline_.geometry, depth_.stored(x, y_top, 0)));
     return off;
   }
 

@@ -49,6 +49,10 @@ TEST_CASE("Where a surface that says nothing may have been lit too, llvmpipe's s
   check_llvmpipe(FrameTheme::clamped_depths, 2256, 1);
 }
 
+TEST_CASE("Of two surfaces that an offset takes to one depth the one that a normal map may have bent so is seen") {
+  check_llvmpipe(FrameTheme::clamped_depths, 910185, 1);
+}
+
 TEST_CASE("Ten bits that llvmpipe cleared are nearest codes, though those that it draws are not") {
   check_llvmpipe(FrameTheme::glass_in_halves, 1117, 1);
 }
