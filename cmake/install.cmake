@@ -1,4 +1,4 @@
-# An install tree for find_package(trueshade). Image files are a component of their own (COMPONENTS image_io), because they
+# An install tree for find_package(trueshade) and pkg-config. Image files are a component of their own (COMPONENTS image_io), because they
 # bring OpenImageIO. The headers named here are the interface; the others are ours to change.
 include(CMakePackageConfigHelpers)
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/trueshade)
@@ -30,4 +30,18 @@ install(EXPORT trueshade_image_io NAMESPACE trueshade:: FILE trueshadeImageIoTar
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/trueshadeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_SOURCE_DIR}/cmake/trueshadeConfig.cmake ${PROJECT_BINARY_DIR}/trueshadeConfigVersion.cmake
         DESTINATION ${config_dir} COMPONENT dev)
+
+# The same for pkg-config: `trueshade`, and `trueshade-image-io` for image files. The flags are those of trueshade_flags.
+get_target_property(options trueshade_flags INTERFACE_COMPILE_OPTIONS)
+get_target_property(definitions trueshade_flags INTERFACE_COMPILE_DEFINITIONS)
+list(TRANSFORM definitions PREPEND -D)
+list(JOIN options " " options)
+list(JOIN definitions " " definitions)
+set(flags "${options} ${definitions}")
+file(RELATIVE_PATH to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+string(REGEX REPLACE "/$" "" to_prefix "${to_prefix}")
+foreach(name trueshade trueshade-image-io)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/${name}.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
+endforeach()
 include(cmake/packages.cmake)

@@ -114,7 +114,7 @@ find_package(trueshade), trueshade::shading."
 trueshade_package(python python "deferred renderer whose image is the same on every CPU: Python module"
 "The module trueshade: scenes from NumPy arrays, frames whose planes are
 arrays without a copy, and a pytest fixture for golden images."
-  PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy"
+  PACKAGE_DEPENDS "python3 (>= ${TRUESHADE_PYTHON_VERSION}), python3 (<< ${TRUESHADE_PYTHON_AFTER}), python3-numpy"
   PACKAGE_SUGGESTS "python3-pytest, trueshade ${same}")
 trueshade_package(viewer graphics "deferred renderer whose image is the same on every CPU: window"
 "The command trueshade view: a window to fly through a scene, to change its

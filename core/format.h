@@ -46,6 +46,7 @@ struct FormatInfo {
   constexpr bool small_float() const { return number_class == NumberClass::floating && bits[0] < 32; }
 };
 
+/// The row of a format.
 constexpr FormatInfo info(Format format) {
   using enum NumberClass;
   switch (format) {
@@ -97,6 +98,7 @@ inline constexpr Format kEmissionFormats[] = {Format::rgba32f, Format::rgba16f, 
 inline constexpr Format kAlbedoFormats[] = {Format::rgba32f, Format::rgba16f, Format::rgb16f, Format::rgba8,
                                             Format::rgb10_a2};
 
+/// The format of that name, or nothing.
 constexpr std::optional<Format> format_from_name(std::string_view name) {
   for (const Format format : kFormats)
     if (info(format).name == name) return format;

@@ -13,11 +13,13 @@ uint64_t available_memory();
 
 /// The limit in bytes. It is half of available_memory() until set_memory_cap() is called.
 uint64_t memory_cap();
+/// Sets the limit in bytes.
 void set_memory_cap(uint64_t bytes);
 
-/// Bytes of memory that the process uses (Linux, proc(5): /proc/self/statm), without and with the parts of mapped files
-/// that are in memory. The system takes these back when it needs room.
+/// Bytes of memory that the process uses (Linux, proc(5): /proc/self/statm), without the parts of mapped files that are
+/// in memory. The system takes these back when it needs room.
 uint64_t resident_memory();
+/// resident_memory() with the parts of mapped files.
 uint64_t resident_memory_with_files();
 
 /// Is called before memory is taken. Throws Error(limit) that names --max-memory if resident_memory() plus `bytes` is

@@ -17,8 +17,10 @@ enum class NumericProfile : uint8_t { ideal, mesa_llvmpipe_22_3 };
 /// As on the command line and in JSON, in the order of the values.
 inline constexpr std::string_view kProfileNames[] = {"ideal", "mesa-llvmpipe-22.3"};
 
+/// Spelling on the command line and in JSON.
 constexpr std::string_view profile_name(NumericProfile profile) { return kProfileNames[size_t(profile)]; }
 
+/// The profile of that name, or nothing.
 constexpr std::optional<NumericProfile> profile_from_name(std::string_view name) {
   for (size_t i = 0; i < std::size(kProfileNames); ++i)
     if (kProfileNames[i] == name) return NumericProfile(i);

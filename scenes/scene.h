@@ -21,6 +21,7 @@
 
 namespace trueshade {
 
+/// What a surface is made of.
 struct Material {
   std::string name;
   glm::vec4 base_color{1.0f};  ///< linear RGBA, times the vertex colour
@@ -53,8 +54,8 @@ struct Material {
   }
 };
 
-/// The maps of a material: colour, specular, normal, metallic-roughness, emission, occlusion.
 inline constexpr size_t kMaterialMaps = 6;
+/// The maps of a material: colour, specular, normal, metallic-roughness, emission, occlusion.
 template <class M>  // Material, const or not
 auto maps_of(M& m) {
   return std::array{&m.color_map,    &m.specular_map, &m.normal_map, &m.metallic_roughness_map,
@@ -118,10 +119,10 @@ void validate(const Scene& scene, const SceneLimits& limits = {});
 /// Largest |x|, |y|, |z| of a mesh's vertices.
 glm::dvec3 reach_of(const Mesh& mesh);
 
+inline constexpr double kLatestTime = 1e6;
 /// Moves instances, lights, camera and colours to a time in seconds, |time| <= 1e6, and poses the meshes that deform
 /// (Timeline::posed); other meshes stay. The same bits whatever the time was before. Error(usage) for a time out of
 /// range, Error(bad_input) where what moves leaves its range.
-inline constexpr double kLatestTime = 1e6;
 void set_time(Scene& scene, double time);
 
 /// validate() of what set_time() moves. Throws Error(bad_input) with the time.

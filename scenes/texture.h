@@ -28,6 +28,7 @@ inline constexpr std::string_view kWrapNames[] = {"repeat", "mirrored_repeat", "
 inline constexpr std::string_view kFilterNames[] = {"nearest", "linear"};
 inline constexpr std::string_view kMipFilterNames[] = {"none", "nearest", "linear"};
 
+/// Bytes of one texel.
 constexpr int bytes_per_texel(TextureFormat format) {
   return format == TextureFormat::rgba32f ? 16 : format == TextureFormat::rgba16f ? 8 : 4;
 }
@@ -75,15 +76,18 @@ std::array<float, 4> texel_value(const Texture& texture, size_t level, int x, in
 
 /// Appends a texel stored as `format` keeps it: unorm RNE(255 clamp(x)), sRGB the nearest code, half to nearest even.
 void append_texel(TextureFormat format, const std::array<float, 4>& value, Array<uint8_t>& bytes);
+/// The same for a vector.
 void append_texel(TextureFormat format, const std::array<float, 4>& value, std::vector<uint8_t>& bytes);
 
+/// What codes stand for.
+enum class CodeEncoding : uint8_t { linear, srgb };
 /// Texels of rgba32f from codes of 16 bits a channel, little-endian: RN(k / 65535), or of sRGB the linear value rounded
 /// once (IEC 61966-2-1); alpha is linear. No bit of the codes is lost: no two have the same float.
-enum class CodeEncoding : uint8_t { linear, srgb };
 std::vector<uint8_t> float_texels_of_16_bits(std::span<const uint8_t> codes, CodeEncoding encoding);
 
-/// Bytes of all levels of a texture down to 1x1, of the first alone without `chain`.
+/// Whether a texture has levels below its first.
 enum class MipChain : uint8_t { none, whole };
+/// Bytes of all levels of a texture down to 1x1, of the first alone without `chain`.
 uint64_t texture_bytes(int width, int height, TextureFormat format, MipChain chain);
 
 /// Adds the levels below the first down to 1x1, each a box filter of the stored one above it.

@@ -53,6 +53,7 @@ struct SceneNode {
   glm::dmat4x3 parent_from_node{1.0};  ///< where no motion says otherwise
 };
 
+/// A node that moves below its parent.
 struct NodeMotion {
   uint32_t node;
   ObjectMotion motion;  ///< gives parent_from_node
@@ -64,14 +65,17 @@ struct NodeInstance {
   glm::dmat4x3 node_from_object{1.0};
   glm::dvec3 reach;  ///< largest |x|, |y|, |z| of the mesh's vertices; of a posed mesh not read
 };
+/// A light that hangs on a node.
 struct NodeLight {
   uint32_t light, node;  ///< the light stands at the node's origin and shines along its -z axis
 };
+/// The camera, where it hangs on a node.
 struct NodeCamera {
   uint32_t node;                                         ///< the camera looks along its -z axis, y up
   std::optional<std::array<double, 16>> clip_from_view;  ///< of a camera without a field of view, column-major
 };
 
+/// The joints that a mesh's vertices follow (glTF 2.0, 3.7.3).
 struct Skin {
   std::vector<uint32_t> joints;               ///< nodes
   std::vector<glm::dmat4x3> joint_from_mesh;  ///< inverse bind matrices, one a joint
@@ -81,6 +85,7 @@ struct Skin {
 struct MorphTarget {
   std::array<FloatStream, 3> position, normal;
 };
+/// A mesh's vertices before they are posed, and what poses them.
 struct RestShape {
   std::array<FloatStream, 3> position, normal;
   bool flat_normals = false;         ///< normals are those of the posed triangles, which share no vertices
@@ -106,6 +111,7 @@ struct PosedMesh {
   std::optional<WeightTrack> motion;  ///< of the weights
 };
 
+/// A material whose colour changes.
 struct MaterialMotion {
   uint32_t material;
   Track color;
@@ -125,6 +131,7 @@ enum class LightProperty : uint8_t {
   spot_exponent
 };
 
+/// A property of a light that changes.
 struct LightMotion {
   uint32_t light;
   LightProperty property;
@@ -141,6 +148,7 @@ struct Orbit {
 
 enum class CameraProperty : uint8_t { eye, target, up, fov_y, fov_x };
 
+/// A property of the camera that changes.
 struct CameraMotion {
   CameraProperty property;
   Track track;  ///< angles in radians
@@ -177,6 +185,7 @@ struct Camera;
 
 /// Sets one property as a scene file does: an intensity multiplies, angles are in radians.
 void set_property(Light& light, LightProperty property, const glm::dvec4& value);
+/// The same of the camera.
 void set_property(Camera& camera, CameraProperty property, const glm::dvec4& value);
 
 /// Position of an orbiting light.

@@ -12,7 +12,9 @@ golden=$(sed -nE 's/.*"builtin:city", "many-lights", 800, 800, "([0-9a-f]{64})".
 
 install_packages command python3 libopenmpi-dev pybind11-dev python3-dev python3-numpy libsdl2-dev libimgui-dev dpkg-dev binutils gzip xz-utils
 export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || echo 0)}
-configure release TRUESHADE_PARTS=all "TRUESHADE_SIMD=avx512;avx2;sse4;scalar" TRUESHADE_PYTHON=ON CMAKE_INSTALL_PREFIX=/usr \
+tests=()
+[[ -e build/release/build.ninja ]] || tests=(TRUESHADE_TESTS=OFF)
+configure release "${tests[@]}" TRUESHADE_PARTS=all "TRUESHADE_SIMD=avx512;avx2;sse4;scalar" TRUESHADE_PYTHON=ON CMAKE_INSTALL_PREFIX=/usr \
   "CMAKE_INSTALL_LIBDIR=lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH)"
 targets=(trueshade trueshade_image_io trueshade_image_io_module trueshade_mpi_module trueshade_python)
 ninja -C build/release -t query trueshade_view_program >/dev/null 2>&1 && targets+=(trueshade_view_program)

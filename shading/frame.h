@@ -72,10 +72,11 @@ struct FrameStats {
 
 /// Planes to hand out beside the colour target (docs/views.md). Names: depth Z position normal albedo specular
 /// emission uv id.object id.material light.count light.tile light.boxes light.edges light.intensity overdraw, and
-/// light.<i> for each light of the scene.
-std::span<const std::string_view> aov_names();  ///< but for light.<i>
-bool is_aov_name(std::string_view name);        ///< of one of them, or light.<i> with any i
+/// `light.<i>` for each light of the scene.
+std::span<const std::string_view> aov_names();  ///< but for `light.<i>`
+bool is_aov_name(std::string_view name);        ///< of one of them, or `light.<i>` with any i
 
+/// What a frame has made: the picture, and what was asked for beside it.
 struct Frame {
   Image color;
   std::vector<NamedImage> aovs;  ///< in the order asked for
@@ -127,6 +128,7 @@ using Progress = std::function<void(int done, int total)>;
 Frame render_frame(const PreparedScene& scene, const Pipeline& pipeline, const Execution& execution = {},
                    std::span<const std::string> aovs = {}, const Progress& progress = {},
                    const PictureConstants* constants = nullptr);
+/// The same of a scene that is split into clusters for this frame alone.
 Frame render_frame(const Scene& scene, const Pipeline& pipeline, const Execution& execution = {},
                    std::span<const std::string> aovs = {}, const Progress& progress = {});
 

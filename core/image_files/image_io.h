@@ -24,6 +24,7 @@ enum class PngEncoding : uint8_t {
   raw,        ///< the values as they are, without a transfer function
 };
 
+/// How a picture is written.
 struct ImageFileOptions {
   PictureValues values = PictureValues::of_target;
   PngEncoding encoding = PngEncoding::by_values;
@@ -58,14 +59,16 @@ std::vector<uint8_t> encode_png(const Image& color, const Metadata& metadata, co
 /// pipes, which would wait for a reader, for folders and whatever else is neither.
 void write_file(const std::string& path, std::span<const uint8_t> bytes);
 
-/// The same for bytes in pieces that follow each other.
+/// Bytes in pieces that follow each other.
 using FilePieces = std::vector<std::span<const uint8_t>>;
+/// The same for pieces.
 void write_file(const std::string& path, const FilePieces& pieces);
 
 /// Error(io) where write_file() could not begin, so that hours of work do not end in a file that was never there.
 /// Writing may fail later for other reasons.
 void check_writable(const std::string& path);
 
+/// What the header of a picture file says.
 struct ImageFileInfo {
   int width = 0, height = 0;
   std::vector<std::string> channels;  ///< `NAME type`

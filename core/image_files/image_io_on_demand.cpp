@@ -1,5 +1,6 @@
 // The reading of EXR and JPEG files for programs that load OpenImageIO only when they need it. The module is looked for
-// beside the program or the shared library that this code is linked into, then where `cmake --install` puts it.
+// beside the program or the shared library that this code is linked into, then in the folder image_io there, where a
+// wheel has one for another release of OpenImageIO, then where `cmake --install` puts it.
 #include <dlfcn.h>
 #include <link.h>
 #include <sys/mman.h>
@@ -45,7 +46,7 @@ const ImageIoTable& loaded_table() {
   if (!has_address_space())
     throw out_of_memory("memory", "there is not enough to load OpenImageIO", "raise the limit on it (ulimit -v)");
   std::string reason = "it is not there";
-  for (const char* folder : {".", "../lib/trueshade", "../" TRUESHADE_LIBDIR "/trueshade"}) {
+  for (const char* folder : {".", "image_io", "../lib/trueshade", "../" TRUESHADE_LIBDIR "/trueshade"}) {
     const std::filesystem::path path = own_folder() / folder / kImageIoModule;
     std::error_code absent;
     if (!std::filesystem::exists(path, absent)) continue;

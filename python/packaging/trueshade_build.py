@@ -7,6 +7,7 @@ as it is where it is configured already. `--config-settings cmake-args="-DA=B ..
 
 import base64
 import hashlib
+import itertools
 import os
 import shlex
 import shutil
@@ -111,24 +112,32 @@ def built(config_settings):
     return folder
 
 
-def tag():
+def own_tag():
+    """Of a wheel for this Python on this machine."""
     platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
     python = f"cp{sys.version_info.major}{sys.version_info.minor}"
     return f"{python}-{python}-{platform}"
+
+
+def single_tags(tag):
+    """The tags that one with points in it stands for: `cp311.cp313-none-any` is two."""
+    return ["-".join(parts) for parts in itertools.product(*(part.split(".") for part in tag.split("-")))]
 
 
 def hash_of(content):
     return "sha256=" + base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
 
 
-def write_wheel(folder, files):
+def write_wheel(folder, files, tag=None):
     """files: (path, content, mode), those of the .dist-info last. Returns the wheel's name."""
+    tag = tag or own_tag()
     info = next(path.split("/")[0] for path, _, _ in files if ".dist-info/" in path)
-    about = f"Wheel-Version: 1.0\nGenerator: trueshade_build\nRoot-Is-Purelib: false\nTag: {tag()}\n"
+    about = "Wheel-Version: 1.0\nGenerator: trueshade_build\nRoot-Is-Purelib: false\n"
+    about += "".join(f"Tag: {single}\n" for single in single_tags(tag))
     files = [*files, (f"{info}/WHEEL", about.encode(), 0o644)]
     record = "".join(f"{path},{hash_of(content)},{len(content)}\n" for path, content, _ in files)
     files.append((f"{info}/RECORD", (record + f"{info}/RECORD,,\n").encode(), 0o644))
-    name = f"{info.removesuffix('.dist-info')}-{tag()}.whl"
+    name = f"{info.removesuffix('.dist-info')}-{tag}.whl"
     with zipfile.ZipFile(Path(folder) / name, "w", zipfile.ZIP_DEFLATED) as wheel:
         for path, content, mode in files:
             entry = zipfile.ZipInfo(path, ERA)

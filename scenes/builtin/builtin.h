@@ -8,11 +8,13 @@
 
 namespace trueshade {
 
+/// A built-in scene as `trueshade list` shows it.
 struct BuiltinInfo {
   std::string_view name;         ///< without `builtin:`
   std::string_view description;  ///< one line
 };
 
+/// All built-in scenes, in the order of `trueshade list`.
 std::span<const BuiltinInfo> builtin_scenes();
 
 /// `NAME[,key=value...]`, keys lights, seed, objects, glass=0|1, radius=overlap|constant. Generated from the seed by

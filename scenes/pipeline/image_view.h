@@ -26,6 +26,7 @@ inline constexpr std::string_view kViewNames[] = {"lit",        "albedo",      "
                                                   "normal",     "position",    "uv",          "light-count",
                                                   "light-tile", "light-boxes", "light-edges", "overdraw"};
 
+/// The view of that name, or nothing.
 constexpr std::optional<ImageView> view_from_name(std::string_view name) {
   for (size_t i = 0; i < std::size(kViewNames); ++i)
     if (kViewNames[i] == name) return ImageView(i);

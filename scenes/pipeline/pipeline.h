@@ -26,7 +26,9 @@ enum class Provoking : uint8_t { last, first };
 /// scaled down) draw the directions between vertices to theirs; without the fragment shader, interpolated normals are
 /// shorter than 1 between vertices.
 enum class UnitNormals : uint8_t { vertex, fragment, both };
+/// Whether the vertex shader makes normals unit length.
 constexpr bool made_unit_at_vertex(UnitNormals shader) { return shader != UnitNormals::fragment; }
+/// Whether the fragment shader does.
 constexpr bool made_unit_at_fragment(UnitNormals shader) { return shader != UnitNormals::vertex; }
 
 /// How lights come to pixels. Spelled with hyphens outside C++.
@@ -38,8 +40,11 @@ enum class Strategy : uint8_t {
 };
 inline constexpr std::string_view kStrategyNames[] = {"forward-multipass", "forward-loop", "deferred-volumes",
                                                       "deferred-loop"};
+/// Spelling on the command line and in JSON.
 constexpr std::string_view name_of(Strategy strategy) { return kStrategyNames[size_t(strategy)]; }
+/// Whether the target is rounded after each light.
 constexpr bool blends_lights(Strategy s) { return s == Strategy::forward_multipass || s == Strategy::deferred_volumes; }
+/// Whether lights are computed where objects are drawn, without a G-buffer.
 constexpr bool is_forward(Strategy s) { return s == Strategy::forward_multipass || s == Strategy::forward_loop; }
 
 /// What bounds a light beside its falloff. A light whose range is infinite is unbounded whatever this says.
@@ -74,6 +79,7 @@ struct GeometryState {
   bool operator==(const GeometryState&) const = default;
 };
 
+/// How a plane of the G-buffer is stored, and how its values are interpolated between vertices.
 struct PlaneState {
   Format format = Format::rgba32f;
   Interpolation interpolation = Interpolation::smooth;
@@ -165,6 +171,7 @@ struct Execution {
 constexpr PictureRegion drawn_region(const Pipeline& pipeline, const PictureRegion& region) {
   return region.width == 0 && region.height == 0 ? PictureRegion{0, 0, pipeline.width, pipeline.height} : region;
 }
+/// How many pixels that part has.
 constexpr uint64_t drawn_pixels(const Pipeline& pipeline, const PictureRegion& region) {
   const PictureRegion drawn = drawn_region(pipeline, region);
   return uint64_t(drawn.width) * uint64_t(drawn.height);
@@ -176,6 +183,7 @@ int tile_for(int width, int height, int threads);
 
 /// Throws Error(usage) naming the field and its range.
 void validate(const Pipeline& pipeline);
+/// The same for what never changes a pixel.
 void validate(const Execution& execution);
 void validate_region(const Pipeline& pipeline, const PictureRegion& region);  ///< that it is within the picture
 /// That what is drawn at once, the picture or a region of it, is at most kMostDrawnSide pixels a side.

@@ -13,6 +13,7 @@ struct PostChain {
   int samples = 1;             ///< a side, 1..8: the frame is drawn that much larger and each square averaged
   float marker_radius = 0.0f;  ///< scene units; point and spot lights as spheres of their colour; 0: none
 
+  /// Light that glows around what is bright.
   struct Bloom {
     float strength = 0.0f;   ///< how much of the blurred light is added; 0: none
     float threshold = 1.0f;  ///< what is above it in a channel glows

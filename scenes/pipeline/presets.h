@@ -8,12 +8,14 @@
 
 namespace trueshade {
 
+/// A named row of numbers that a pipeline starts from.
 struct Preset {
   std::string_view name;
   std::string_view source;  ///< where the row's numbers come from
   Pipeline pipeline;
 };
 
+/// All presets, in the order of `trueshade list`.
 std::span<const Preset> presets();
 
 /// The pipeline of a preset's row; nothing if the name is unknown.

@@ -27,6 +27,7 @@ inline constexpr BlendState kBlendOver{true,
                                        {},
                                        {true, true, true, true}};
 
+/// How transparent surfaces are drawn.
 struct TransparencyState {
   TransparencyMode mode = TransparencyMode::after_lights;
   BlendState blend = kBlendOver;

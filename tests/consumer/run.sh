@@ -1,6 +1,6 @@
 #!/bin/bash
 # Installs a build into a fresh prefix, and builds programs against it with find_package(trueshade): tests/consumer, which is
-# run, and every program (`cpp`) of a guide that has a `cmake` block, which are built with that block and run. Usage: run.sh BUILD_FOLDER SOURCE_FOLDER COMPILER CXX_FLAGS
+# run, built by pkg-config too, and every program (`cpp`) of a guide that has a `cmake` block, which are built with that block and run. Usage: run.sh BUILD_FOLDER SOURCE_FOLDER COMPILER CXX_FLAGS
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -18,6 +18,15 @@ read -r hash lit < <("$work/build/consumer/consumer" "$work/picture.png")
 echo "hash $hash, $lit pixels lit"
 [[ $hash =~ ^[0-9a-f]{64}$ && $lit -gt 400 && -s $work/picture.png ]]
 "$work/prefix/bin/trueshade" info "$work/picture.png"
+
+# By pkg-config, in a prefix that was moved: the same picture. TSan's and ASan's flags are in CXX_FLAGS.
+mv "$work/prefix" "$work/moved"
+pc=$(find "$work/moved" -name trueshade-image-io.pc -printf '%h\n')
+by_pkg_config() { PKG_CONFIG_PATH=$pc pkg-config "$@" trueshade-image-io; }
+# shellcheck disable=SC2046  # flags are words
+"$3" $4 -O2 $(by_pkg_config --cflags) "$2/tests/consumer/main.cpp" -o "$work/by_pkg_config" $(by_pkg_config --libs)
+[[ $("$work/by_pkg_config" "$work/again.png") == "$hash $lit" ]]
+mv "$work/moved" "$work/prefix"
 for schema in $(grep -o '[a-z]*\.schema\.json' < <("$work/prefix/bin/trueshade" list)); do
   [[ -s $work/prefix/share/trueshade/$schema ]]
 done

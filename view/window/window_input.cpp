@@ -18,6 +18,12 @@ const char* clipboard_text(void*) {
 
 void set_clipboard_text(void*, const char* text) { SDL_SetClipboardText(text); }
 
+#if IMGUI_VERSION_NUM < 18700  // Debian 12's
+constexpr ImGuiKey kKeypadEnter = ImGuiKey_KeyPadEnter;
+#else
+constexpr ImGuiKey kKeypadEnter = ImGuiKey_KeypadEnter;
+#endif
+
 void set_key_map() {
   constexpr std::pair<ImGuiKey, SDL_Scancode> kMap[] = {{ImGuiKey_Tab, SDL_SCANCODE_TAB},
                                                         {ImGuiKey_LeftArrow, SDL_SCANCODE_LEFT},
@@ -31,7 +37,7 @@ void set_key_map() {
                                                         {ImGuiKey_Delete, SDL_SCANCODE_DELETE},
                                                         {ImGuiKey_Backspace, SDL_SCANCODE_BACKSPACE},
                                                         {ImGuiKey_Enter, SDL_SCANCODE_RETURN},
-                                                        {ImGuiKey_KeyPadEnter, SDL_SCANCODE_KP_ENTER},
+                                                        {kKeypadEnter, SDL_SCANCODE_KP_ENTER},
                                                         {ImGuiKey_Escape, SDL_SCANCODE_ESCAPE},
                                                         {ImGuiKey_A, SDL_SCANCODE_A},
                                                         {ImGuiKey_C, SDL_SCANCODE_C},
