@@ -10,7 +10,7 @@ out=build/packages
 suite=$(suite_of_this_machine)
 golden=$(sed -nE 's/.*"builtin:city", "many-lights", 800, 800, "([0-9a-f]{64})".*/\1/p' tests/golden/frames.h)
 
-install_packages command python3 libopenmpi-dev pybind11-dev python3-dev python3-numpy libsdl2-dev libimgui-dev dpkg-dev binutils gzip xz-utils
+install_packages command python3 libopenmpi-dev pybind11-dev python3-dev python3-numpy libsdl2-dev libimgui-dev dpkg-dev binutils file gzip xz-utils
 export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || echo 0)}
 tests=()
 [[ -e build/release/build.ninja ]] || tests=(TRUESHADE_TESTS=OFF)
