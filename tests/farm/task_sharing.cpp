@@ -2,8 +2,8 @@
 // clear error on rank 0; and nobody waits for ever.
 #include "farm/task_sharing.h"
 
-#include <array>
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <mutex>
 #include <random>
