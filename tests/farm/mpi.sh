@@ -236,8 +236,9 @@ jobs() {
   echo "{\"jobs\": [$list]}"
 }
 
-# without_clock FILE: the rows of a table of jobs without their seconds, which are the same whoever ran them.
-without_clock() { sed -E 's/^([a-z]+ +)[0-9.]+ +/\1/' "$1"; }
+# without_clock FILE: the rows of a table of jobs without their seconds, and the files written without the size of those
+# that hold seconds: the same whoever ran them.
+without_clock() { sed -E 's/^([a-z]+ +)[0-9.]+ +/\1/; s/\(JSON, [0-9]+ kB\)/(JSON)/' "$1"; }
 
 batch() {
   local count status
