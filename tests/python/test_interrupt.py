@@ -10,6 +10,7 @@ import trueshade
 
 
 def test_ctrl_c_ends_a_frame():
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's job in the background is told to ignore it
     scene = trueshade.load_scene("builtin:city")
     pipeline = trueshade.Pipeline(size=(12000, 12000))
     threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
