@@ -138,9 +138,10 @@ void Projector::weigh_linearly(const std::array<ClipVertex, 3>& corners, WindowV
       }
 }
 
-/// Where the planes of a cut triangle go through the vertices submitted, a vertex that clipping made is not moved by
-/// any grid of its own: it moves as the plane does, by the sum of their moves times its weights, which are beyond [0,
-/// 1] where one of them is behind the eye. Moves turn the plane too: a share of the triangle's area.
+/// Widens the reach of a vertex that clipping made, of a triangle whose planes go through its submitted vertices. Only
+/// submitted vertices are snapped to the grid. The clipped vertex moves with the plane: by the sum of their moves, each
+/// times its weight at the clipped vertex. A weight is below 0 or above 1 where a submitted vertex is behind the eye.
+/// The moves turn the plane too, by a share that their size has of the triangle's area.
 void Projector::lean_on(const std::array<WindowVertex, 3>& submitted, WindowVertex& v) const {
   const Pair &a = submitted[0].plane, &b = submitted[1].plane, &c = submitted[2].plane;
   const double area = std::fabs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));

@@ -35,7 +35,8 @@ void add_lights(Scene& scene, Pcg32& random) {
   }
 }
 
-/// A shard that reaches behind the camera, of one colour: its planes are seen far from some of its corners.
+/// A shard of one colour with corners behind the camera. What is seen of its planes is far from those corners, so that
+/// a snap of such a corner shows enlarged.
 void add_shard_behind_eye(Mesh& mesh, Pcg32& random) {
   add_shard(mesh, random);
   for (size_t corner = mesh.vertex_count() - 3; corner < mesh.vertex_count(); ++corner) {

@@ -68,9 +68,8 @@ bool has_nan_of_halves(const Image& target) {
 
 /// Where SwiftShader draws what no Vulkan may, by its source.
 /// - Values beyond the largest half are stored as NaN (System/Half.hpp).
-/// - The unit of a float depth's offset is 2^-23 of the largest power of two among near + (z - z0) range, where z0 is
-/// the depth
-///   of one vertex, instead of that among the depths (Pipeline/SetupRoutine.cpp takes z0 off the others before).
+/// - The unit of a float depth's offset is 2^-23 of the largest power of two among near + (z - z0) range, instead of
+///   that among the depths z. Here z0 is the depth of one vertex (Pipeline/SetupRoutine.cpp takes it off the others).
 std::string wrong_of_swiftshader(const RandomFrame& frame, const DrawnFrame& drawn) {
   if (has_nan_of_halves(drawn.capture.color)) return "values beyond the largest half are stored as NaN";
   const GeometryState& state = frame.pipeline.geometry;
