@@ -9,12 +9,14 @@ namespace trueshade::oracle {
 
 namespace {
 
-/// The layers upon a value, in floats, their alphas so much more.
-std::array<double, 4> covered(const TransparentPixel& pixel, const BlendState& blend, bool is_fixed,
+/// The layers upon a value of the format, in floats, their alphas so much more.
+std::array<double, 4> covered(const TransparentPixel& pixel, const BlendState& blend, const FormatInfo& format,
                               const std::array<double, 4>& from, double more_alpha) {
+  const bool is_fixed = format.number_class == NumberClass::unorm;
   Rgba at;
   for (size_t k = 0; k < 4; ++k) at[k] = float(is_fixed ? std::clamp(from[k], 0.0, 1.0) : from[k]);
   for (const TransparentLayer& layer : pixel.layers) {
+    if (format.channels < 4) at[3] = 1;
     Rgba source;
     for (size_t k = 0; k < 4; ++k) {
       const double value = layer.nominal[k].value + (k == 3 ? more_alpha : 0);
@@ -35,9 +37,8 @@ std::optional<GlassChange> TransparentLayers::change(const TransparentPixel& pix
   for (const TransparentLayer& l : pixel.layers)
     if (!l.certain || l.either_way || l.undefined || l.looked_up || material_of(l) != material_of(pixel.layers[0]))
       return std::nullopt;
-  const bool is_fixed = info(format_).number_class == NumberClass::unorm;
   constexpr double kPart = 0x1p-7;
-  const auto at = [&](double more) { return covered(pixel, blend_, is_fixed, from, more); };
+  const auto at = [&](double more) { return covered(pixel, blend_, info(format_), from, more); };
   const std::array<double, 4> high = at(kPart), low = at(-kPart);
   GlassChange out{material_of(pixel.layers[0]), at(0), {}, int(pixel.layers.size())};
   for (size_t k = 0; k < 4; ++k) out.by_alpha[k] = (high[k] - low[k]) / (2 * kPart);

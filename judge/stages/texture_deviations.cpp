@@ -40,6 +40,11 @@ struct ChangedTexels {
   std::vector<std::optional<SurfaceTexels>> changed;
 };
 
+/// Whether the plane's format has an alpha. Where it has none, a format with one may stand in, whose alpha is 1.
+bool stores_alpha(const GBufferState& planes, std::string_view plane) {
+  return info(plane == "albedo" ? planes.albedo.format : planes.emission).channels > 3;
+}
+
 /// Makes deviations of pixels.
 class TextureSampler {
  public:
@@ -48,7 +53,8 @@ class TextureSampler {
       : projector_(scene, pipeline, profile, capture.drawn_at), way_(way) {
     for (size_t g = 0; g < kGroupCount; ++g) {
       views_[g] = plane_of(capture, pipeline, kGroups[g].plane);
-      if (kGroups[g].first + kGroups[g].count > views_[g].channels && kGroups[g].count == 1) views_[g] = {};
+      const bool is_alpha = kGroups[g].first == 3;
+      if (is_alpha && (views_[g].channels < 4 || !stores_alpha(pipeline.gbuffer, kGroups[g].plane))) views_[g] = {};
     }
   }
 

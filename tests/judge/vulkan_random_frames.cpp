@@ -95,6 +95,11 @@ TEST_CASE("A software device of Vulkan is not convicted under states drawn at ra
   for (const FrameTheme theme : kThemes) check_software(theme, 1, 4);
 }
 
+TEST_CASE("An alpha that stands in where a format has none is no evidence of maps, and a blend reads it as 1") {
+  check_software(FrameTheme::any, 920643, 1);  // rgb16f holds emission, and a map its share of ambient light
+  check_software(FrameTheme::any, 920717, 1);  // glass of src_alpha_saturate upon rgb16f
+}
+
 TEST_CASE("SwiftShader is not convicted by its profile under states drawn at random") {
   check_swiftshader(FrameTheme::any, 1, 24);
   for (const FrameTheme theme : kThemes) check_swiftshader(theme, 1, 8);
