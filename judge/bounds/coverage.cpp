@@ -8,10 +8,10 @@ namespace trueshade::oracle {
 
 namespace {
 
-/// Products of all pairs of numbers.
-EdgeSpan times(const EdgeSpan& a, const EdgeSpan& b) {
-  const double p[4] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
-  return {std::min({p[0], p[1], p[2], p[3]}), std::max({p[0], p[1], p[2], p[3]})};
+/// Products of all pairs of numbers. std::min of a list of four would be a loop.
+inline EdgeSpan times(const EdgeSpan& a, const EdgeSpan& b) {
+  const double p = a.low * b.low, q = a.low * b.high, r = a.high * b.low, s = a.high * b.high;
+  return {std::min(std::min(p, q), std::min(r, s)), std::max(std::max(p, q), std::max(r, s))};
 }
 
 }  // namespace
@@ -20,8 +20,8 @@ EdgeSpan edge_span(const WindowVertex& a, const WindowVertex& b, double x, doubl
   const EdgeSpan ax{a.low[0] - x, a.high[0] - x}, ay{a.low[1] - y, a.high[1] - y};
   const EdgeSpan bx{b.low[0] - x, b.high[0] - x}, by{b.low[1] - y, b.high[1] - y};
   const bool points = ax.low == ax.high && ay.low == ay.high && bx.low == bx.high && by.low == by.high;
-  const double largest = std::max({std::fabs(ax.low), std::fabs(ay.low), std::fabs(bx.low), std::fabs(by.low)});
-  if (points && largest >= 0x1p17) {  // 2^25 subpixels: the products need more than a double
+  const auto is_far = [](const EdgeSpan& e) { return std::fabs(e.low) >= 0x1p17; };
+  if (points && (is_far(ax) || is_far(ay) || is_far(bx) || is_far(by))) {  // 2^25 subpixels: the products need more than a double
     const auto fixed = [](double v) { return Int128(std::llround(v * kSubpixels)); };
     const Int128 e = fixed(ax.low) * fixed(by.low) - fixed(ay.low) * fixed(bx.low);
     return {double(e), double(e)};  // only its sign is read
