@@ -288,7 +288,7 @@ LegalTexel added_code(const LegalTexel& stored, const LegalTexel& source, double
   const LegalTexel t{sum(stored.nominal, source.nominal), sum(stored.low, source.low), sum(stored.high, source.high), 0,
                      0};
   if (!(t.low < t.high)) return t;
-  return {t.nominal, t.low, t.high, source.second_chance, source.second_side};
+  return {t.nominal, t.low, t.high, source.second_chance, source.second_side, source.either_side};
 }
 
 /// All of one channel's numbers at their middle: what float32, rounded once, gives.

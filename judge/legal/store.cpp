@@ -74,6 +74,7 @@ void set_chance(LegalTexel& t, const Range& r, double below, double above) {
   const double up = std::max(0.0, r.high - above), down = std::max(0.0, below - r.low);
   t.second_chance = std::min(1.0, (up + down) / width);
   t.second_side = up >= down ? 1 : -1;
+  t.either_side = up > 0 && down > 0;
 }
 
 /// Codes within `reach` of the ends of a range of codes. Less than one from a real number are the whole ones next to
@@ -134,14 +135,15 @@ void set_llvmpipe_code(LegalTexel& t, const Range& r, const LlvmpipeSrgb& table)
   t.nominal = code(step_after(table, r.value));
   const double low = std::clamp(r.low, 0.0, 1.0), high = std::clamp(r.high, 0.0, 1.0);
   if (!(low < high)) return;
-  double other = 0, side = 0, from = low;
+  double above = 0, below = 0, from = low;
   for (size_t step = step_after(table, low); from < high; ++step) {
     const double to = std::min(high, double(table.start[step])), apart = code(step) - t.nominal;
-    if (apart != 0) other += to - from, side += apart > 0 ? to - from : from - to;
+    if (apart != 0) (apart > 0 ? above : below) += to - from;
     from = to;
   }
-  t.second_chance = std::min(1.0, other / (high - low));
-  t.second_side = side >= 0 ? 1 : -1;
+  t.second_chance = std::min(1.0, (above + below) / (high - low));
+  t.second_side = above >= below ? 1 : -1;
+  t.either_side = above > 0 && below > 0;
 }
 
 LegalTexel srgb8(const Range& r, const Profile& profile) {
@@ -235,7 +237,8 @@ LegalTexel widened(const LegalTexel& stored, int channel) {
     const auto c = uint32_t(code);
     return double(channel == 3 ? c * 0x5555u : c << 6 | c >> 4);
   };
-  return {wide(stored.nominal), wide(stored.low), wide(stored.high), stored.second_chance, stored.second_side};
+  return {wide(stored.nominal), wide(stored.low), wide(stored.high), stored.second_chance, stored.second_side,
+          stored.either_side};
 }
 
 LegalTexel narrowed(const LegalTexel& wide, int channel) {
@@ -270,7 +273,7 @@ LegalTexel legal_texel(const Range& given, Format format, int channel, const Pro
     letter.likely = {};
     LegalTexel t = legal_texel(range, format, channel, letter);
     t.nominal = std::clamp(likely.nominal, t.low, t.high);
-    t.second_chance = likely.second_chance, t.second_side = likely.second_side;
+    t.second_chance = likely.second_chance, t.second_side = likely.second_side, t.either_side = likely.either_side;
     return t;
   }
   if (layout.srgb_channel(channel)) return srgb8(range, profile);

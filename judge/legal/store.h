@@ -23,6 +23,7 @@ struct LegalTexel {
   double second_chance = 0;  ///< predicted probability that the likely rule does not store the nominal value, errors
                              ///< uniform in the range
   int second_side = 0;       ///< where the likelier other value lies: -1 below, 1 above
+  bool either_side = false;  ///< whether there are other values on both sides
   /// Anything may be stored for a value of which nothing is known: NaN too.
   bool is_open() const { return low != low || high != high || (low == -HUGE_VAL && high == HUGE_VAL); }
   bool contains(double stored) const { return (stored >= low && stored <= high) || is_open(); }

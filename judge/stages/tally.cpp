@@ -166,7 +166,7 @@ StoreChoice choice_of(const PlaneView& view, int channel, uint32_t pixel, double
                 int8_t(stored < likely.nominal   ? -1
                        : stored > likely.nominal ? 1
                                                  : 0)};
-  const bool is_second = c.taken == 0 || (c.chance > 0 && (c.taken == c.side || c.chance > 0.5f));
+  const bool is_second = c.taken == 0 || (c.chance > 0 && (c.taken == c.side || likely.either_side || c.chance > 0.5f));
   if (!is_second) c.chance = 0, c.side = c.taken;
   if (view.unorm() && profile.likely.code_reach > 0.5) {  // errors of such a size are alike where values are
     constexpr double kAlike = 16;                         // parts of a code
