@@ -18,7 +18,7 @@ Profile d3d_class() {
   p.most_depth_unit = 1;  // 15.10
   p.max_norm_slope = true;
   // 7.18.16: at least 8 fractional bits of weights and levels. 3.2.3: sRGB within half a code; decoded, then filtered.
-  p.sampling = {0x1p-8, 0x1p-8, 1, 0.5, false, false, true, 0x1p-8};
+  p.sampling = {0x1p-8, 0x1p-8, 0x1p-8, 1, 0.5, false, false, true, 0x1p-8};
   p.fetch_error = 1.25 * 0x1p-23;
   p.arithmetic.roundoff = 0x1p-24;
   return p;
@@ -50,7 +50,7 @@ Profile llvmpipe() {
   p.least_depth_unit = 2;
   p.max_norm_slope = true;
   // RGBA8 with 8-bit weights and results, other formats in floats; rho the longer gradient.
-  p.sampling = {0x1p-8, 0, 1, 0x1p-10, false, true, false, 0.045};
+  p.sampling = {0x1p-8, 0, 0x1p-8, 1, 0x1p-10, false, true, false, 0.045};
   p.fetch_error = 1.25 * 0x1p-23;
   p.arithmetic.roundoff = 0x1p-24;
   return p;
@@ -72,7 +72,7 @@ Profile ideal() {
   p.most_depth_unit = 1;
   p.max_norm_slope = true;
   p.fetch_error = 0x1p-24;
-  p.sampling = {0, 0, 0, 0, false, false, false, 1e-6, 0x1p-24};
+  p.sampling = {0, 0, 0, 0, 0, false, false, false, 1e-6, 0x1p-24};
   // 1 / sqrt is two roundings; the others one, each to nearest.
   p.arithmetic = {0x1p-24, 0x1p-24, 2 * 0x1p-24, 0x1p-24, true};
   return p;

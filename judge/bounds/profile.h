@@ -30,7 +30,7 @@ enum class HalfStore : uint8_t {
   toward_zero,
   nearest,
   either,
-  through_halves,  ///< to the nearest half, the larger of two; floats of 11 and 10 bits are that half, cut
+  through_halves,  ///< to the nearest half, either of two; floats of 11 and 10 bits are that half, cut
                    ///< (SwiftShader)
 };
 /// How the planes of attributes and of 1 / w are made.
@@ -52,6 +52,8 @@ enum class BlendRule : uint8_t {
 struct Sampling {
   double weight_error = 0x1p-7;       ///< of a weight between texels of 8 bits a channel (VK-GL-CTS: 7 bits of u and v)
   double wide_weight_error = 0x1p-7;  ///< the same of other formats, and of sRGB
+  double nearest_error = 0x1p-8;  ///< texels that the place of a nearest texel may be off: GPUs make it of 8 bits of
+                                  ///< fraction (D3D11.3, 7.18.16), SwiftShader of 16 bits of the side
   double lerp_codes = 1;  ///< codes of 255 that one linear step (along u, along v, between levels) of 8-bit texels may
                           ///< be off: either neighbour of its value. 0: filtered as floats
   double srgb_codes = 0.5;   ///< codes that a decoded sRGB texel may be off (D3D11.3, 3.2.3; Mesa's are 0.343 off)

@@ -44,6 +44,7 @@ void visit_fields(AnyProfile& p, Visitor& v) {
   v.group("sampling");
   v.number("weight_error", p.sampling.weight_error, 0, 1);
   v.number("wide_weight_error", p.sampling.wide_weight_error, 0, 1);
+  v.number("nearest_error", p.sampling.nearest_error, 0, 1);
   v.number("lerp_codes", p.sampling.lerp_codes, 0, kTwo);
   v.number("srgb_codes", p.sampling.srgb_codes, 0, kTwo);
   v.flag("decodes_late", p.sampling.decodes_late);

@@ -228,7 +228,7 @@ TexelHull level_range(const TexelSource& texels, size_t level, Filter filter, co
   const auto off = [&](const Range& coordinate, int side) {  // weights, and the float product
     if (exact) return 0.0;
     const double size = std::max(std::fabs(coordinate.low), std::fabs(coordinate.high)) * side;
-    return (linear ? weight : 0.0) + 3 * 0x1p-23 * (size + 1);
+    return (linear ? weight : texels.rules.nearest_error) + 3 * 0x1p-23 * (size + 1);
   };
   const Side x(u, l.width, off(u, l.width), linear), y(v, l.height, off(v, l.height), linear);
   if (!x.is_small() || !y.is_small()) return whole_level(texels, level);

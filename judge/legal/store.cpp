@@ -37,19 +37,26 @@ struct SmallFloat {
     if (x - low != high - x) return x - low < high - x ? low : high;
     return std::fmod(low / spacing(x), 2) == 0 ? low : high;
   }
-  /// The nearest, and of two the larger in size.
-  double nearest_or_larger(double x) const {
+  /// The nearest, and of two the larger in size, or the smaller.
+  double nearest_by_size(double x, bool larger) const {
     const double size = std::fabs(x), low = below(size), high = above(size);
     if (size >= largest() + spacing(largest()) / 2) return std::copysign(HUGE_VAL, x);
-    return low == high ? x : std::copysign(size - low < high - size ? low : high, x);
+    const bool is_low = size - low < high - size || (size - low == high - size && !larger);
+    return low == high ? x : std::copysign(is_low ? low : high, x);
   }
-  double through_halves(double x) const {
-    const double half = SmallFloat{10}.nearest_or_larger(x);
+  double through_halves(double x, bool larger) const {
+    const double half = SmallFloat{10}.nearest_by_size(x, larger);
     return has_sign() ? half : toward_zero(half);
   }
   double stored(double x, HalfStore mode) const {
-    if (mode == HalfStore::through_halves) return through_halves(x);
+    if (mode == HalfStore::through_halves) return through_halves(x, true);
     return mode == HalfStore::toward_zero ? toward_zero(x) : nearest(x);
+  }
+  double least_stored(double x, HalfStore mode) const {
+    return mode == HalfStore::through_halves ? through_halves(x, x < 0) : stored(x, mode);
+  }
+  double most_stored(double x, HalfStore mode) const {
+    return mode == HalfStore::through_halves ? through_halves(x, x >= 0) : stored(x, mode);
   }
   /// How far beyond a value of the grid a store still gives it: away from zero, and toward zero.
   std::array<double, 2> reach_of(double x, HalfStore mode) const {
@@ -174,7 +181,7 @@ LegalTexel small_float(Range r, const SmallFloat& grid, const Profile& profile) 
     if (r.high > grid.largest()) t.high = HUGE_VAL;  // to the largest or to infinity
     if (r.low < -grid.largest()) t.low = -HUGE_VAL;
   } else {
-    t = {grid.stored(r.value, mode), grid.stored(r.low, mode), grid.stored(r.high, mode)};
+    t = {grid.stored(r.value, mode), grid.least_stored(r.low, mode), grid.most_stored(r.high, mode)};
   }
   if (!grid.has_sign())
     for (double* end : {&t.nominal, &t.low, &t.high})

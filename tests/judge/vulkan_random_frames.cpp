@@ -119,8 +119,12 @@ TEST_CASE("Floats of 11 and 10 bits by way of halves are the nearest half, cut")
   CHECK(stored(1 + 15.6 / 1024, Format::r11g11b10f, 0) == 1 + 1.0 / 64);
   CHECK(stored(1 + 31.4 / 1024, Format::r11g11b10f, 2) == 1);
   CHECK(stored(1 + 31.6 / 1024, Format::r11g11b10f, 2) == 1 + 1.0 / 32);
-  CHECK(stored(1 + 0.5 / 1024, Format::rgba16f, 0) == 1 + 1.0 / 1024);
-  CHECK(stored(-1 - 0.5 / 1024, Format::rgba16f, 0) == -1 - 1.0 / 1024);
+  const LegalTexel tie = legal_texel({1 + 0.5 / 1024, 1 + 0.5 / 1024, 1 + 0.5 / 1024}, Format::rgba16f, 0, profile);
+  CHECK(tie.low == 1);
+  CHECK(tie.high == 1 + 1.0 / 1024);
+  const LegalTexel below = legal_texel({-1 - 0.5 / 1024, -1 - 0.5 / 1024, -1 - 0.5 / 1024}, Format::rgba16f, 0, profile);
+  CHECK(below.low == -1 - 1.0 / 1024);
+  CHECK(below.high == -1);
 }
 
 TEST_CASE("A probe of SwiftShader tells how it differs from Mesa") {
