@@ -117,14 +117,12 @@ class LightPass {
     glBindFramebuffer(GL_FRAMEBUFFER, (is_forward(pipeline_.strategy) ? t_.forward : t_.over).framebuffer);
     use(programs_.transparent);
     glDepthMask(GL_FALSE);
-    BlendState blend = pipeline_.transparency.blend;
-    if (stands_in_) blend.mask[3] = false;
-    set_blend_state(blend);
+    set_blend_state(of_target(pipeline_.transparency.blend));
     if (draw_.after_object)
       draw_over_one_by_one();
     else
       buffers_.draw_instances(Surfaces::transparent);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    write_alpha();
   }
 
   void draw_over_one_by_one() const {
@@ -140,6 +138,14 @@ class LightPass {
       if ((k + 1) % stride == 0 || k + 1 == objects.size()) show(draw_.after_object, int(objects[k]), framebuffer);
     }
   }
+
+  /// An alpha that stands in for none stays 1 from the clear on.
+  BlendState of_target(BlendState blend) const {
+    if (stands_in_) blend.mask[3] = false;
+    return blend;
+  }
+  void hold_alpha() const { glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, stands_in_ ? GL_FALSE : GL_TRUE); }
+  static void write_alpha() { glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE); }
 
   void clear(GLuint framebuffer) const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -176,11 +182,13 @@ class LightPass {
     clear(t_.forward.framebuffer);
     glClearBufferfv(GL_DEPTH, 0, &pipeline_.geometry.clear_depth);
     use(programs_.light);
+    hold_alpha();
   }
 
   void forward_loop() const {
     begin_forward();
     buffers_.draw_instances(solid());
+    write_alpha();
   }
 
   /// The first light stores depth and colour, the others add where the depth is the one stored.
@@ -193,8 +201,9 @@ class LightPass {
       show(light, t_.forward.framebuffer);
       glDepthMask(GL_FALSE);
       glDepthFunc(GL_EQUAL);
-      set_blend_state(kAddLight);
+      set_blend_state(of_target(kAddLight));
     }
+    write_alpha();
   }
 
   void deferred_loop() const {
@@ -203,7 +212,9 @@ class LightPass {
     use(programs_.light);
     const GlVertexArray none = make_vertex_array();
     glBindVertexArray(none);
+    hold_alpha();
     glDrawArrays(GL_TRIANGLES, 0, 3);
+    write_alpha();
   }
 
   void draw_quad(GLuint program) const {
@@ -231,15 +242,14 @@ class LightPass {
     glEnableVertexAttribArray(0);
     if (pipeline_.light_volumes.base) {
       set_volume_state(pipeline_, false, draw_.shift_x, draw_.shift_y);
-      if (stands_in_) glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
+      hold_alpha();
       use(programs_.base);
       draw_quad(programs_.base);
     }
     show(-1, t_.light.framebuffer);
     use(programs_.light);
     set_clip_rows(programs_.light, scene_, pipeline_);
-    BlendState blend = pipeline_.blend;
-    if (stands_in_) blend.mask[3] = false;
+    const BlendState blend = of_target(pipeline_.blend);
     const LightMeshes meshes(pipeline_.light_volumes);
     for (int i = 0; i < lights_; ++i) {
       const Light& light = scene_.lights[size_t(i)];
@@ -253,7 +263,7 @@ class LightPass {
         draw_quad(programs_.light);
       show(i, t_.light.framebuffer);
     }
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    write_alpha();
   }
 
   const Targets& t_;

@@ -38,20 +38,25 @@ PlannedDraw geometry_draw(const Pipeline& pipeline) {
 
 std::vector<PlannedDraw> light_draws(const Pipeline& pipeline, const GlslOptions& options) {
   const DepthFunc func = pipeline.geometry.depth_func;
+  const BlendState stored = of_target({}, pipeline, options);
   switch (pipeline.strategy) {
     case Strategy::forward_multipass:
-      return {{kLightVert, kLightFrag, DrawnGeometry::scene, DrawnLights::first, scene_state(pipeline, func, true, {})},
-              {kLightVert, kLightFrag, DrawnGeometry::scene, DrawnLights::others,
-               scene_state(pipeline, DepthFunc::equal, false, kAddLight)}};
+      return {
+          {kLightVert, kLightFrag, DrawnGeometry::scene, DrawnLights::first, scene_state(pipeline, func, true, stored)},
+          {kLightVert, kLightFrag, DrawnGeometry::scene, DrawnLights::others,
+           scene_state(pipeline, DepthFunc::equal, false, of_target(kAddLight, pipeline, options))}};
     case Strategy::forward_loop:
-      return {{kLightVert, kLightFrag, DrawnGeometry::scene, DrawnLights::all, scene_state(pipeline, func, true, {})}};
+      return {
+          {kLightVert, kLightFrag, DrawnGeometry::scene, DrawnLights::all, scene_state(pipeline, func, true, stored)}};
     case Strategy::deferred_volumes:
-      return volume_draws(pipeline, of_target({}, pipeline, options), of_target(pipeline.blend, pipeline, options));
+      return volume_draws(pipeline, stored, of_target(pipeline.blend, pipeline, options));
     case Strategy::deferred_loop:
       break;
   }
-  return {{kLightVert, kLightFrag, DrawnGeometry::triangle, DrawnLights::all,
-           image_state(pipeline.width, pipeline.height)}};
+  PlannedDraw draw{kLightVert, kLightFrag, DrawnGeometry::triangle, DrawnLights::all,
+                   image_state(pipeline.width, pipeline.height)};
+  draw.state.blend = stored;
+  return {draw};
 }
 
 std::optional<PlannedDraw> glass_draw(const Pipeline& pipeline, const GlslOptions& options) {

@@ -172,6 +172,7 @@ LegalTexel srgb8(const Range& r, const Profile& profile) {
 }
 
 LegalTexel small_float(Range r, const SmallFloat& grid, const Profile& profile) {
+  const bool is_any = r.low == -HUGE_VAL && r.high == HUGE_VAL;
   if (!grid.has_sign()) r = {std::max(0.0, r.value), std::max(0.0, r.low), std::max(0.0, r.high)};
   LegalTexel t;
   const HalfStore likely = profile.likely.half == HalfStore::either ? HalfStore::toward_zero : profile.likely.half;
@@ -186,7 +187,8 @@ LegalTexel small_float(Range r, const SmallFloat& grid, const Profile& profile) 
   if (!grid.has_sign())
     for (double* end : {&t.nominal, &t.low, &t.high})
       if (std::isinf(*end) && !std::isinf(r.high)) *end = grid.largest();
-  if (!std::isfinite(r.value)) return t;
+  if (is_any) t.low = -HUGE_VAL;  // NaN too, which an unsigned float holds
+  if (is_any || !std::isfinite(r.value)) return t;
   const auto [away, toward] = grid.reach_of(t.nominal, mode);
   const double below = t.nominal - (t.nominal < 0 ? away : toward);
   const double above = t.nominal + (t.nominal < 0 ? toward : away);

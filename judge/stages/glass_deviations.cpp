@@ -9,6 +9,16 @@ namespace trueshade::oracle {
 
 namespace {
 
+/// Whether a blend reads an alpha of the target that rounding to codes moves by more than the picture's own alpha is
+/// told.
+bool reads_coarse_alpha(const BlendTerm& term, const FormatInfo& format) {
+  if (format.channels < 4 || format.bits[3] >= 8) return false;
+  const auto reads = [](BlendFactor f) {
+    return f == BlendFactor::dst_alpha || f == BlendFactor::one_minus_dst_alpha || f == BlendFactor::src_alpha_saturate;
+  };
+  return reads(term.src) || reads(term.dst);
+}
+
 /// The layers upon a value of the format, in floats, their alphas so much more.
 std::array<double, 4> covered(const TransparentPixel& pixel, const BlendState& blend, const FormatInfo& format,
                               const std::array<double, 4>& from, double more_alpha) {
@@ -33,7 +43,7 @@ std::optional<GlassChange> TransparentLayers::change(const TransparentPixel& pix
                                                      const std::array<double, 4>& from) const {
   const Scene& scene = projector_.scene();
   const auto material_of = [&](const TransparentLayer& l) { return scene.instances[l.instance].material; };
-  if (pixel.layers.empty()) return std::nullopt;
+  if (pixel.layers.empty() || reads_coarse_alpha(blend_.rgb, info(format_))) return std::nullopt;
   for (const TransparentLayer& l : pixel.layers)
     if (!l.certain || l.either_way || l.undefined || l.looked_up || material_of(l) != material_of(pixel.layers[0]))
       return std::nullopt;

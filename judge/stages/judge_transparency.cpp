@@ -94,7 +94,7 @@ LayeredVerdict judge_ways(std::span<const LayeredTexel> ways, const PlaneView& v
       PixelClass c = way.pixel_class;
       if (m.second && worse(PixelClass::store_2, c)) c = PixelClass::store_2;
       if (m.second && way.looked_up && worse(PixelClass::tex, c)) c = PixelClass::tex;
-      m.choices.clear();  // of several blends: which of them chose is not known
+      m.choices.clear(), m.store_count = 0;  // of several blends: which of them chose is not known
       return {c, m};
     }
     if (i == 0 || m.excess < closest.match.excess) closest.match = m;
