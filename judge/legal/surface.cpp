@@ -70,6 +70,8 @@ void SurfacePoint::find_samples(double x, double y, Within within) {
 void SurfacePoint::no_plane(double x, double y) {
   bounded_ = false;
   if (profile_.exact_planes || profile_.plane_origin == PlaneOrigin::unsnapped || piece_.submitted) return;
+  // What is left inside the view is snapped anew and covers the sample; the plane is that of the whole triangle.
+  if (profile_.planes == PlaneForm::homogeneous && piece_.leaves_view) return;
   tiny_ = Tiny::hull;
   if (profile_.plane_origin == PlaneOrigin::snapped) return;
   bool same = true;
