@@ -39,9 +39,10 @@ inline Bounded sum(const Arithmetic& a, const Bounded& x, const Bounded& y) {
 inline Bounded difference(const Arithmetic& a, const Bounded& x, const Bounded& y) {
   return rounded(x.value - y.value, x.error + y.error, a.roundoff);
 }
+/// An infinite error stays one where the other factor is 0: nothing is known of that product.
 inline Bounded product(const Arithmetic& a, const Bounded& x, const Bounded& y) {
-  return rounded(x.value * y.value, std::fabs(x.value) * y.error + std::fabs(y.value) * x.error + x.error * y.error,
-                 a.roundoff);
+  const double error = std::fabs(x.value) * y.error + std::fabs(y.value) * x.error + x.error * y.error;
+  return rounded(x.value * y.value, error >= 0 ? error : HUGE_VAL, a.roundoff);
 }
 
 /// x / y: |x/y - (x+dx)/(y+dy)| <= (dx + |x/y| dy) / (|y| - dy). Infinite error where y may be 0.
