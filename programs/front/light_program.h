@@ -2,7 +2,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "programs/values/program.h"
@@ -17,19 +16,22 @@ struct ProgramLimits {
   size_t source = 1'000'000;  ///< bytes of GLSL
 };
 
-/// The SPIR-V of a light program in GLSL: the prelude programs/light_interface.glsl, the user's text, and an entry point
-/// of ours. Error(bad_input) `FILE:LINE: reason`, `FILE:LINE:COLUMN: reason` where the place in the line is known.
-std::vector<uint32_t> spirv_from_glsl(const std::string& file, const std::string& text, const ProgramLimits& limits);
-
-/// Which of the functions that have a default the user's text defines.
-struct DefinedFunctions {
-  bool reaches = false, start = false, finish = false;
+/// What glslang makes of a light program: the prelude programs/light_interface.glsl, the user's text and an entry point
+/// of ours, which has the defaults of what the text does not define.
+struct CompiledLight {
+  std::vector<uint32_t> words;  ///< SPIR-V 1.3 by no optimiser
+  bool defines_reaches = false, defines_start = false, defines_finish = false;
 };
+
+/// Error(bad_input) `FILE:LINE: reason`, or `FILE:LINE:COLUMN: reason` where the place in the line is known, with the
+/// lines of the user's text.
+CompiledLight compiled_light(const std::string& file, const std::string& text, const ProgramLimits& limits = {});
 
 /// A program from GLSL.
 Program program_from_glsl(const std::string& file, const std::string& text, const ProgramLimits& limits = {});
 
-/// A program from SPIR-V with the blocks of docs/light_programs.md, by any compiler. Hostile words end in an Error.
+/// A program from SPIR-V that has the blocks of compiled_light() by name, made by any compiler. Hostile words end in an
+/// Error.
 Program program_from_spirv(const std::string& file, std::vector<uint32_t> words, const ProgramLimits& limits = {});
 
 }  // namespace trueshade::programs

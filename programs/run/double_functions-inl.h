@@ -145,7 +145,6 @@ HWY_INLINE VD cosine_near_0(VD r) {
 
 /// The integer next to x, halves away from zero.
 HWY_INLINE VD rounded_away(VD x) {
-  const DD d;
   const VD whole = hn::Sub(hn::Add(x, number(kWholeShift)), number(kWholeShift));  // halves to even
   const MD lost_half = hn::Eq(hn::Abs(hn::Sub(x, whole)), number(0.5));
   const MD toward_0 = hn::And(lost_half, hn::Lt(hn::Abs(whole), hn::Abs(x)));
