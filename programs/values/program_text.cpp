@@ -37,14 +37,15 @@ std::string operand_text(const Program& program, NodeId id) {
   const ProgramNode& node = program.nodes[id];
   if (node.op == Op::constant) return constant_text(node);
   if (node.op == Op::input) return program.inputs[node.bits].name;
-  return "%" + std::to_string(id);
+  return std::string("%").append(std::to_string(id));
 }
 
 std::string node_text(const Program& program, NodeId id) {
   const ProgramNode& node = program.nodes[id];
-  std::string out = "  %" + std::to_string(id) + " = " + std::string(info(node.op).name);
-  for (const NodeId operand : node.operands()) out += " " + operand_text(program, operand);
-  out += "  # " + std::string(name_of_type(node.type)) + ", " + std::string(name_of(node.rate));
+  std::string out = "  %";
+  out.append(std::to_string(id)).append(" = ").append(info(node.op).name);
+  for (const NodeId operand : node.operands()) out.append(" ").append(operand_text(program, operand));
+  out.append("  # ").append(name_of_type(node.type)).append(", ").append(name_of(node.rate));
   if (node.precise) out += ", precise";
   if (node.line != 0) out += ", line " + std::to_string(node.line);
   return out + "\n";
