@@ -89,6 +89,8 @@ NodeId NodeBuilder::make(Op op, NodeId a, NodeId b, NodeId c) {
     all_constant = all_constant && operand.op == Op::constant;
     bits[i] = operand.bits;
   }
+  if (op == Op::b_or && this->node(a).op == Op::b_not && this->node(b).op == Op::b_not)
+    return negation(both(this->node(a).operand[0], this->node(b).operand[0]));
   if (all_constant) return constant(node.type, applied(op, node.type, bits[0], bits[1], bits[2]));
   const NodeId same = simpler(op, a, b);
   return same != kNoNode ? same : add(node);
@@ -105,10 +107,17 @@ NodeId NodeBuilder::select(NodeId condition, NodeId a, NodeId b) {
   if (node(b).op == Op::select && node(b).operand[0] == condition) b = node(b).operand[2];
   if (a == b) return a;
   if (node(a).type == Type::boolean) {
+    if (a == condition) a = true_;
+    if (b == condition) b = false_;
+    if (node(a).op == Op::b_not && node(a).operand[0] == condition) a = false_;
+    if (node(b).op == Op::b_not && node(b).operand[0] == condition) b = true_;
+    if (a == b) return a;
     if (is_true(a) && is_false(b)) return condition;
     if (is_false(a) && is_true(b)) return negation(condition);
     if (is_false(b)) return both(condition, a);
     if (is_true(a)) return either(condition, b);
+    if (is_false(a)) return both(negation(condition), b);
+    if (is_true(b)) return either(negation(condition), a);
   }
   ProgramNode choice;
   choice.op = Op::select;

@@ -42,6 +42,7 @@ Scalars Lowering::call(uint32_t id, std::span<const uint32_t> arguments) {
   next.function = &function;
   next.order = &order_of(function);
   next.call_mask = frames_.empty() ? b_.truth(true) : frame().mask;
+  next.present = b_.truth(true);
   next.edges.resize(next.order->block.size());
   next.edges[0].push_back({b_.truth(true), {}});
   frames_.push_back(std::move(next));
@@ -205,6 +206,7 @@ void Lowering::go(uint32_t label, NodeId mask) {
 void Lowering::leave(const Scalars* value) {
   Frame& f = frame();
   for (Construct& open : f.constructs) open.escaped = true;
+  f.present = b_.both(f.present, b_.negation(f.mask));
   if (value == nullptr) return;
   if (f.returned.empty()) {
     f.returned = *value;

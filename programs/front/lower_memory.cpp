@@ -182,11 +182,11 @@ Scalars Lowering::load_at(const Variable& variable, const Pointer& pointer, size
   return out;
 }
 
-/// The mask of the block as the variable's own function sees it.
+/// The mask of the block as the variable's own function sees it, where lanes that have returned from it do not matter.
 NodeId Lowering::mask_for(const Variable& variable) {
   NodeId mask = frame().mask;
   for (size_t k = frames_.size() - 1; k > variable.frame; --k) mask = b_.both(frames_[k].call_mask, mask);
-  return mask;
+  return b_.mask_under(frames_[variable.frame].present, mask);
 }
 
 void Lowering::store(const Pointer& pointer, const Scalars& value) {

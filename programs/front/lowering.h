@@ -67,6 +67,7 @@ class Lowering {
     const BlockOrder* order = nullptr;
     NodeId call_mask = 0;  ///< of the caller
     NodeId mask = 0;       ///< of the block
+    NodeId present = 0;    ///< lanes that have not returned
     uint32_t label = 0;    ///< of the block
     std::vector<std::vector<Edge>> edges;  ///< by position, to blocks that have not run yet
     std::vector<Construct> constructs;

@@ -119,9 +119,22 @@ size_t Executable::registers() const {
   return most;
 }
 
-Executable executable_of(Program given) {
+namespace {
+
+/// The program with `reaches` constant.
+Program without_reaches(Program program) {
+  ProgramNode zero;
+  zero.type = Type::u32;
+  program.output[kReachesOutput] = NodeId(program.nodes.size());
+  program.nodes.push_back(zero);
+  return without_dead_nodes(program);
+}
+
+}  // namespace
+
+Executable executable_of(Program given, Wanted wanted) {
   Executable out;
-  out.program = std::move(given);
+  out.program = wanted == Wanted::light ? without_reaches(std::move(given)) : std::move(given);
   const Program& program = out.program;
   std::vector<bool> is_kept(program.nodes.size());
   for (NodeId id = 0; id < program.nodes.size(); ++id) {

@@ -36,6 +36,9 @@ struct Executable {
   size_t registers() const;  ///< the most of any stage
 };
 
-Executable executable_of(Program program);
+/// What a light pass asks for: `reaches` costs operations that nothing else needs, and is 0 where it is left out.
+enum class Wanted : uint8_t { light, light_and_reaches };
+
+Executable executable_of(Program program, Wanted wanted = Wanted::light);
 
 }  // namespace trueshade::programs

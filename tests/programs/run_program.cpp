@@ -35,7 +35,7 @@ float float_of(uint32_t bits) { return std::bit_cast<float>(bits); }
 uint32_t bits_of(float x) { return std::bit_cast<uint32_t>(x); }
 
 Numbers run_once(const Program& program, const Numbers& inputs) {
-  const Executable executable = executable_of(program);
+  const Executable executable = executable_of(program, Wanted::light_and_reaches);
   Registers registers(executable);
   ConstantValues constants(executable);
   const auto& constant_inputs = executable.at(Rate::constant).inputs;

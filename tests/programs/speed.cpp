@@ -12,7 +12,7 @@
 namespace trueshade::programs {
 namespace {
 
-constexpr size_t kPixels = 256, kLights = 16;
+constexpr size_t kPixels = 512, kLights = 16;
 
 Program model(const std::string& name) {
   std::ifstream file(std::string(TRUESHADE_SOURCE_DIR) + "/tests/programs/models/" + name);
