@@ -1,10 +1,12 @@
 #include <cmath>
-#include <random>
+#include <cstdio>
+#include <iterator>
 
 #include "core/simd/simd_target.h"
 #include "programs/run/code.h"
 #include "tests/catch.hpp"
 #include "tests/programs/plain_operations.h"
+#include "tests/programs/random_words.h"
 #include "tests/programs/run_program.h"
 
 namespace trueshade::programs {
@@ -19,7 +21,7 @@ constexpr uint32_t kSpecial[] = {
     0x0000001Fu, 0x00000020u, 0xFFFFFFFFu, 0x7FFFFFFFu, 0x0000012Cu, 0xFFFFFED4u, 0x40490FDBu, 0x3FC90FDBu, 0x43480000u};
 
 /// Bits that an operand of a type may have: specials, small numbers, any.
-uint32_t random_bits(Type type, std::mt19937& random) {
+uint32_t random_bits(Type type, RandomWords& random) {
   if (type == Type::boolean) return random() & 1;
   switch (random() % 4) {
     case 0:
@@ -36,7 +38,7 @@ uint32_t random_bits(Type type, std::mt19937& random) {
 bool is_nan(uint32_t bits) { return (bits & 0x7FFFFFFFu) > 0x7F800000u; }
 
 /// Runs the operation on a batch of random operands; returns the first lane that is not as the plain formula says.
-std::string first_fault(Op op, std::mt19937& random) {
+std::string first_fault(Op op, RandomWords& random) {
   const OpInfo& about = info(op);
   alignas(64) static uint32_t registers[4 * kBatchLanes];
   static uint32_t given[3][kBatchLanes];
@@ -66,7 +68,7 @@ std::string first_fault(Op op, std::mt19937& random) {
 TEST_CASE("Every operation has the bits of its plain formula, on every SIMD target") {
   for (const std::string_view target : simd_targets()) {
     const SimdScope scope(target);
-    std::mt19937 random(7);
+    RandomWords random(7);
     for (int op = int(Op::f_add); op < kOpCount; ++op)
       for (int round = 0; round < 40; ++round) {
         const std::string fault = first_fault(Op(op), random);
@@ -83,7 +85,7 @@ TEST_CASE("Operands are read where they lie: registers, planes, constants and li
   const float constants[] = {0.5f, 7.0f}, lights[] = {10.0f, 20.0f, 30.0f};
   const float *const planes[] = {nullptr, plane}, *const light_values[] = {nullptr, nullptr, lights};
   uint32_t first[kBatchBlocks], light[kBatchBlocks];
-  for (uint32_t k = 0; k < kBatchBlocks; ++k) first[k] = (kBatchBlocks - 1 - k) * uint32_t(kBlockLanes), light[k] = k % 3;
+  for (uint32_t k = 0; k < kBatchBlocks; ++k) first[k] = uint32_t((kBatchBlocks - 1 - k) * kBlockLanes), light[k] = k % 3;
   const auto at = [&](Source source, size_t lane) {
     const size_t block = lane / kBlockLanes;
     return source.place == Place::lanes      ? float(lane)
@@ -107,7 +109,7 @@ TEST_CASE("Operands are read where they lie: registers, planes, constants and li
 }
 
 TEST_CASE("Constants are folded with the interpreter's bits") {
-  std::mt19937 random(3);
+  RandomWords random(3);
   for (int op = int(Op::f_add); op < kOpCount; ++op)
     for (int round = 0; round < 100; ++round) {
       const OpInfo& about = info(Op(op));

@@ -207,6 +207,7 @@ uint32_t plain_half(float x) {
   if (x != x) return 0x7E00;
   const uint32_t sign = std::signbit(x) ? 0x8000 : 0;
   const double size = std::abs(double(x));
+  if (size == 0) return sign;
   if (size >= 65520) return sign | 0x7C00;
   int exponent = 0;
   static_cast<void>(std::frexp(size, &exponent));
