@@ -75,6 +75,16 @@ NodeId NodeBuilder::simpler(Op op, NodeId a, NodeId b) const {
   }
 }
 
+/// Of not (p and q), where the mask says p: not q. Else kNoNode.
+NodeId NodeBuilder::without_known(NodeId mask, NodeId condition) {
+  if (node(condition).op != Op::b_not) return kNoNode;
+  const NodeId inner = node(condition).operand[0];
+  if (node(inner).op != Op::b_and) return kNoNode;
+  const NodeId p = node(inner).operand[0], q = node(inner).operand[1];
+  if (implies(mask, p, true)) return negation(q);
+  return implies(mask, q, true) ? negation(p) : kNoNode;
+}
+
 NodeId NodeBuilder::make(Op op, NodeId a, NodeId b, NodeId c) {
   ProgramNode node;
   node.op = op;
@@ -88,6 +98,12 @@ NodeId NodeBuilder::make(Op op, NodeId a, NodeId b, NodeId c) {
     const ProgramNode& operand = program_.nodes[node.operand[i]];
     all_constant = all_constant && operand.op == Op::constant;
     bits[i] = operand.bits;
+  }
+  if (op == Op::b_and) {
+    const NodeId shorter = without_known(a, b);
+    if (shorter != kNoNode) return both(a, shorter);
+    const NodeId other = without_known(b, a);
+    if (other != kNoNode) return both(b, other);
   }
   if (op == Op::b_or && this->node(a).op == Op::b_not && this->node(b).op == Op::b_not)
     return negation(both(this->node(a).operand[0], this->node(b).operand[0]));

@@ -59,6 +59,7 @@ class NodeBuilder {
 
   NodeId add(const ProgramNode& node);
   NodeId simpler(Op op, NodeId a, NodeId b) const;
+  NodeId without_known(NodeId mask, NodeId condition);
   bool implies(NodeId mask, NodeId condition, bool value) const;
 
   const std::string where_;

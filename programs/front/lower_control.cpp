@@ -93,12 +93,12 @@ void Lowering::run_loop(size_t header) {
   --frame().loops;
 }
 
-/// Ends the constructs that come out at a position; their mask, where every lane that entered does.
+/// Ends the constructs that come out at a position; the mask of those that do.
 std::optional<NodeId> Lowering::close_constructs(size_t position) {
   std::optional<NodeId> mask;
   auto& constructs = frame().constructs;
   while (!constructs.empty() && constructs.back().end == position) {
-    mask = constructs.back().escaped ? std::nullopt : std::optional(constructs.back().mask);
+    mask = constructs.back().mask;
     constructs.pop_back();
   }
   return mask;
@@ -187,7 +187,7 @@ void Lowering::go(uint32_t label, NodeId mask) {
   for (size_t i = f.constructs.size(); i-- > 0;) {
     Construct& open = f.constructs[i];
     if (to == open.end || (open.first <= to && to < open.end)) break;
-    open.escaped = true;
+    open.mask = b_.both(open.mask, b_.negation(mask));
   }
   const SpirvBlock& target = f.function->blocks[f.order->block[to]];
   Edge edge{mask, {}};
@@ -205,7 +205,7 @@ void Lowering::go(uint32_t label, NodeId mask) {
 /// Takes the block's lanes out of the function.
 void Lowering::leave(const Scalars* value) {
   Frame& f = frame();
-  for (Construct& open : f.constructs) open.escaped = true;
+  for (Construct& open : f.constructs) open.mask = b_.both(open.mask, b_.negation(f.mask));
   f.present = b_.both(f.present, b_.negation(f.mask));
   if (value == nullptr) return;
   if (f.returned.empty()) {

@@ -56,11 +56,10 @@ class Lowering {
     NodeId mask;
     std::vector<Scalars> phi;  ///< for each phi of the target
   };
-  /// A header's blocks, by positions: where all that entered come out again, the mask is what it was.
+  /// A header's blocks, by positions. The lanes that entered come out at the end, but for those that went elsewhere.
   struct Construct {
     size_t first, end;
     NodeId mask;
-    bool escaped = false;  ///< some lane may have gone elsewhere than to `end`
   };
   struct Frame {
     const SpirvFunction* function = nullptr;
