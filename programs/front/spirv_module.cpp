@@ -112,6 +112,7 @@ class ModuleReader {
       case SpirvOp::kDecorateId:
       case SpirvOp::kDecorateString:
       case SpirvOp::kMemberDecorateString:
+      case SpirvOp::kCapability:  // what it allows is refused where it stands
         return;
       case SpirvOp::kName:
         m_.names[m_.checked(one.word(0))] = one.text(1);
@@ -121,11 +122,6 @@ class ModuleReader {
         return;
       case SpirvOp::kDecorate:
         if (one.word(1) == kDecorationNoContraction) m_.precise[m_.checked(one.word(0))] = true;
-        return;
-      case SpirvOp::kCapability:
-        if (one.word(0) != kCapabilityMatrix && one.word(0) != kCapabilityShader)
-          refuse("asks for the capability " + std::to_string(one.word(0)) + " of SPIR-V's section 3.31",
-                 "write it with those of Shader");
         return;
       case SpirvOp::kExtInstImport:
         if (one.text(1) == "GLSL.std.450") {

@@ -54,7 +54,6 @@ enum class GlslFunction : uint32_t {
 
 enum class SpirvStorage : uint32_t { uniform = 2, output = 3, private_ = 6, function = 7, storage_buffer = 12 };
 
-inline constexpr uint32_t kCapabilityMatrix = 0, kCapabilityShader = 1;
 inline constexpr uint32_t kDecorationNoContraction = 42;
 inline constexpr uint32_t kModelGlCompute = 5;
 
