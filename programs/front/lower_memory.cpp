@@ -222,7 +222,7 @@ void Lowering::set_outputs() {
   std::vector<ProgramInput> names;
   ScalarNames(m_, Rate::constant, names).add(result->type, "");
   for (int i = 0; i < kOutputCount; ++i) {
-    const std::string name = "." + std::string(name_of_output(i));
+    const std::string name = std::string(".").append(name_of_output(i));
     const Type type = i == kReachesOutput ? Type::u32 : Type::f32;
     size_t k = 0;
     while (k < names.size() && names[k].name != name) ++k;

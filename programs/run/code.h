@@ -18,12 +18,17 @@ struct Source {
   uint32_t slot = 0;
 };
 
+/// What becomes of the product of the first two sources and the third: two operations, each rounded, whose first result
+/// is not stored. The third source has a register, and the first one or a plane.
+enum class Product : uint8_t { none, plus, minus, from };
+
 /// One operation on all lanes of a batch. Op::input copies its first source, Op::constant does not occur. Booleans are
 /// words of ones or of zeros.
 struct Instruction {
   Op op;
   uint32_t to;  ///< a register
   Source from[3];
+  Product product = Product::none;
 };
 
 /// Instructions and what they work on. Registers may be the target and a source of one instruction.

@@ -301,8 +301,18 @@ void run_one(const CodeView& view, const Instruction& one) {
   }
 }
 
+void run_product(const CodeView& view, const Instruction& one) {
+  if (one.product == programs::Product::plus) return product(ProductPlus(), view, one);
+  if (one.product == programs::Product::minus) return product(ProductMinus(), view, one);
+  product(FromProduct(), view, one);
+}
+
 void run_code_simd(const CodeView& view) {
-  for (size_t i = 0; i < view.count; ++i) run_one(view, view.code[i]);
+  for (size_t i = 0; i < view.count; ++i)
+    if (view.code[i].product != programs::Product::none)
+      run_product(view, view.code[i]);
+    else
+      run_one(view, view.code[i]);
 }
 
 }  // namespace trueshade::programs::HWY_NAMESPACE

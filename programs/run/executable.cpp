@@ -41,9 +41,12 @@ class StageMaker {
         rate_(rate),
         stage_(out.stage[size_t(rate)]),
         slot_(program_.nodes.size(), kNoNode),
+        product_(program_.nodes.size(), kNoNode),
+        inside_(program_.nodes.size(), false),
         last_use_(program_.nodes.size(), 0) {}
 
   void make() {
+    find_products();
     find_last_uses();
     for (NodeId id = 0; id < program_.nodes.size(); ++id)
       if (computed(id)) add(id);
@@ -54,13 +57,59 @@ class StageMaker {
  private:
   bool computed(NodeId id) const {
     const ProgramNode& node = program_.nodes[id];
-    return node.rate == rate_ && node.op != Op::input && node.op != Op::constant;
+    return node.rate == rate_ && node.op != Op::input && node.op != Op::constant && !inside_[id];
+  }
+
+  /// What an instruction reads: a node's operands, or two factors and what their product is added to.
+  struct Operands {
+    std::array<NodeId, 3> id{};
+    size_t count = 0;
+    Product product = Product::none;
+  };
+  Operands operands_of(NodeId id) const {
+    const ProgramNode& node = program_.nodes[id];
+    if (product_[id] == kNoNode) return {node.operand, node.operands().size(), Product::none};
+    const ProgramNode& product = program_.nodes[product_[id]];
+    const bool is_first = node.operand[0] == product_[id];
+    Operands out{{product.operand[0], product.operand[1], node.operand[is_first ? 1 : 0]}, 3, Product::plus};
+    if (node.op == Op::f_sub) out.product = is_first ? Product::minus : Product::from;
+    if (!is_of_lanes(out.id[0])) std::swap(out.id[0], out.id[1]);
+    return out;
+  }
+
+  /// Whether the value differs from lane to lane of a block.
+  bool is_of_lanes(NodeId id) const {
+    const Rate rate = program_.nodes[id].rate;
+    return rate == rate_ || (rate != Rate::constant && rate != Rate::light);
+  }
+
+  /// Finds the products that a sum or a difference alone reads, and that need not be stored.
+  void find_products() {
+    if (rate_ == Rate::constant) return;  // no source of it is a plane, and it runs once a frame
+    std::vector<uint32_t> uses(program_.nodes.size());
+    for (const ProgramNode& node : program_.nodes)
+      for (const NodeId operand : node.operands()) ++uses[operand];
+    for (const NodeId id : stage_.kept) ++uses[id];
+    for (NodeId id = 0; id < program_.nodes.size(); ++id) {
+      const ProgramNode& node = program_.nodes[id];
+      if (!computed(id) || (node.op != Op::f_add && node.op != Op::f_sub)) continue;
+      for (const size_t i : {size_t(1), size_t(0)}) {
+        const NodeId factor = node.operand[i], other = node.operand[1 - i];
+        if (program_.nodes[factor].op != Op::f_mul || uses[factor] != 1 || !computed(factor) || !computed(other)) continue;
+        if (product_[factor] != kNoNode) continue;
+        product_[id] = factor;
+        inside_[factor] = true;
+        break;
+      }
+    }
   }
 
   void find_last_uses() {
-    for (NodeId id = 0; id < program_.nodes.size(); ++id)
-      if (computed(id))
-        for (const NodeId operand : program_.nodes[id].operands()) last_use_[operand] = id;
+    for (NodeId id = 0; id < program_.nodes.size(); ++id) {
+      if (!computed(id)) continue;
+      const Operands operands = operands_of(id);
+      for (size_t i = 0; i < operands.count; ++i) last_use_[operands.id[i]] = id;
+    }
     for (const NodeId id : stage_.kept) last_use_[id] = kNoNode;
   }
 
@@ -76,23 +125,22 @@ class StageMaker {
   }
 
   void add(NodeId id) {
-    const ProgramNode& node = program_.nodes[id];
-    Instruction one{node.op, 0, {}};
+    const Op op = program_.nodes[id].op;
+    const Operands operands = operands_of(id);
+    Instruction one{op, 0, {}, operands.product};
     std::vector<uint32_t> copies;
-    const auto operands = node.operands();
-    for (size_t i = 0; i < operands.size(); ++i) {
-      one.from[i] = place_of(operands[i]);
-      if (reads_place(node.op, i, one.from[i].place)) continue;
+    for (size_t i = 0; i < operands.count; ++i) {
+      one.from[i] = place_of(operands.id[i]);
+      if (operands.product != Product::none || reads_place(op, i, one.from[i].place)) continue;
       copies.push_back(pool_.take());
       stage_.code.push_back({Op::input, copies.back(), {one.from[i], {}, {}}});
       one.from[i] = {Place::lanes, copies.back()};
     }
-    for (size_t i = operands.size(); i < 3; ++i) one.from[i] = operands.empty() ? Source{} : one.from[0];
+    for (size_t i = operands.count; i < 3; ++i) one.from[i] = one.from[0];
     for (const uint32_t copy : copies) pool_.give_back(copy);
-    for (size_t i = 0; i < operands.size(); ++i) release(operands[i], id);
+    for (size_t i = 0; i < operands.count; ++i) release(operands.id[i], id);
     slot_[id] = one.to = pool_.take();
     stage_.code.push_back(one);
-    if (last_use_[id] == 0) pool_.give_back(slot_[id]);  // read by no stage: of a program with dead nodes
   }
 
   void release(NodeId operand, NodeId user) {
@@ -108,6 +156,8 @@ class StageMaker {
   Stage& stage_;
   RegisterPool pool_;
   std::vector<uint32_t> slot_;
+  std::vector<NodeId> product_;  // for a sum or difference, the product that it reads without storing it
+  std::vector<bool> inside_;     // such products
   std::vector<NodeId> last_use_;
 };
 

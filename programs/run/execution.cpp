@@ -106,17 +106,21 @@ void run_surfaces(const Executable& executable, const ConstantValues& constants,
                  BatchBlocks(first, surfaces.lanes()), registers, start[c] + first);
 }
 
-void run_pairs(const Executable& executable, const ConstantValues& constants, const LaneValues& lights,
-               const LaneValues& surfaces, std::span<const PairBlock> pairs, PairResults& out, Registers& registers) {
+PairResults run_pairs(const Executable& executable, const ConstantValues& constants, const LaneValues& lights,
+                      const LaneValues& surfaces, std::span<const PairBlock> pairs, Registers& registers) {
   const BatchPlaces places{constants.data(), surfaces.planes(), lights.planes()};
   BatchBlocks blocks;
   blocks.count = pairs.size();
   for (size_t k = 0; k < pairs.size(); ++k)
     blocks.plane_lane[k] = pairs[k].first_pixel, blocks.light[k] = pairs[k].light;
   run_batch(executable.at(Rate::pair), places, blocks, registers);
-  for (int i = 0; i < kStartOutput; ++i)
-    copy_value(place_of_output(executable, i, Rate::pair), places, blocks, registers,
-               i == kReachesOutput ? out.reaches->lane : out.light[i]->lane);
+  const float* lanes[kStartOutput];
+  for (int i = 0; i < kStartOutput; ++i) {
+    const Source from = place_of_output(executable, i, Rate::pair);
+    lanes[i] = from.place == Place::lanes ? registers.data() + from.slot * kBatchLanes : registers.output(i);
+    if (from.place != Place::lanes) copy_value(from, places, blocks, registers, registers.output(i));
+  }
+  return {{lanes[0], lanes[1], lanes[2]}, lanes[kReachesOutput]};
 }
 
 void run_finish(const Executable& executable, const ConstantValues& constants, const LaneValues& surfaces,

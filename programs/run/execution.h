@@ -14,13 +14,16 @@ struct alignas(64) LaneBlock {
   float lane[kBlockLanes];
 };
 
-/// Registers for one thread.
+/// Registers for one thread, and room for outputs that are computed once a light, a pixel or a frame.
 class Registers {
  public:
-  explicit Registers(const Executable& executable) : blocks_(executable.registers() * kBatchBlocks) {}
+  explicit Registers(const Executable& executable)
+      : count_(executable.registers()), blocks_((count_ + kOutputCount) * kBatchBlocks) {}
   float* data() { return blocks_.data()->lane; }
+  float* output(int i) { return data() + (count_ + size_t(i)) * kBatchLanes; }
 
  private:
+  size_t count_;
   std::vector<LaneBlock> blocks_;
 };
 
@@ -68,15 +71,16 @@ struct PairBlock {
   uint32_t light;
 };
 
-/// What a batch of pairs adds, in the order of its blocks.
+/// What a batch of pairs adds, kBlockLanes lanes for each of its blocks. It lies in the registers, until these are used
+/// again.
 struct PairResults {
-  LaneBlock light[3][kBatchBlocks];
-  LaneBlock reaches[kBatchBlocks];  ///< words, 0 where the light does not reach the pixel
+  const float* light[3];
+  const float* reaches;  ///< words, 0 where the light does not reach the pixel
 };
 
 /// At most kBatchBlocks pairs of blocks. Every lane is computed, whether the caller wants it or not.
-void run_pairs(const Executable& executable, const ConstantValues& constants, const LaneValues& lights,
-               const LaneValues& surfaces, std::span<const PairBlock> pairs, PairResults& out, Registers& registers);
+PairResults run_pairs(const Executable& executable, const ConstantValues& constants, const LaneValues& lights,
+                      const LaneValues& surfaces, std::span<const PairBlock> pairs, Registers& registers);
 
 /// From the sums, as long as `surfaces`, makes what is stored: four planes of the same length.
 void run_finish(const Executable& executable, const ConstantValues& constants, const LaneValues& surfaces,

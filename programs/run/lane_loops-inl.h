@@ -102,6 +102,29 @@ HWY_NOINLINE void any_2(F f, const CodeView& view, const Instruction& one) {
   }
 }
 
+/// A product and a third operand.
+template <class F, class A>
+HWY_INLINE void factor_of(F f, A a, const CodeView& view, const Instruction& one) {
+  const Source source = one.from[1];
+  const FromLanes c = lanes_of(view, one.from[2]);
+  float* const to = register_of(view, one.to);
+  switch (source.place) {
+    case Place::lanes:
+      return each_3(f, a, lanes_of(view, source), c, view, to);
+    case Place::plane:
+      return each_3(f, a, plane_of(view, source), c, view, to);
+    case Place::light:
+      return each_3(f, a, light_of(view, source), c, view, to);
+    case Place::constant:
+      return each_3(f, a, constant_of(view, source), c, view, to);
+  }
+}
+template <class F>
+HWY_NOINLINE void product(F f, const CodeView& view, const Instruction& one) {
+  if (one.from[0].place == Place::lanes) return factor_of(f, lanes_of(view, one.from[0]), view, one);
+  factor_of(f, plane_of(view, one.from[0]), view, one);
+}
+
 /// Operations whose operands all have registers.
 template <class F>
 HWY_NOINLINE void lanes_1(F f, const CodeView& view, const Instruction& one) {

@@ -50,6 +50,15 @@ struct Most {
     return hn::IfThenElse(hn::Gt(a, b), a, b);
   }
 };
+struct ProductPlus {
+  HWY_INLINE VF operator()(VF a, VF b, VF c) const { return hn::Add(hn::Mul(a, b), c); }
+};
+struct ProductMinus {
+  HWY_INLINE VF operator()(VF a, VF b, VF c) const { return hn::Sub(hn::Mul(a, b), c); }
+};
+struct FromProduct {
+  HWY_INLINE VF operator()(VF a, VF b, VF c) const { return hn::Sub(c, hn::Mul(a, b)); }
+};
 struct Equal {
   HWY_INLINE VF operator()(VF a, VF b) const { return hn::VecFromMask(DF(), hn::Eq(a, b)); }
 };

@@ -92,15 +92,14 @@ void check_model(const std::string& name, const LightModel& model) {
       PairBlock pairs[kBatchBlocks];
       for (uint32_t k = 0; k < kBatchBlocks; ++k)
         pairs[k] = {first + k * uint32_t(kBlockLanes), (k * 5 + turn * 3) % uint32_t(sample.scene.lights.size())};
-      PairResults out;
-      run_pairs(executable, constants, lights, surfaces, pairs, out, registers);
+      const PairResults out = run_pairs(executable, constants, lights, surfaces, pairs, registers);
       for (size_t lane = 0; lane < kBatchLanes; ++lane) {
         Scene one;
         one.camera = sample.scene.camera;
         one.lights = {sample.scene.lights[pairs[lane / kBlockLanes].light]};
         const auto wanted = naive_sum(one, model, sample.pixels[first + lane]);
         for (size_t c = 0; c < 3; ++c) {
-          const float made = out.light[c][lane / kBlockLanes].lane[lane % kBlockLanes];
+          const float made = out.light[c][lane];
           REQUIRE(bits_of(0.0f + made) == bits_of(wanted[c]));
           lit += made > 0;
         }

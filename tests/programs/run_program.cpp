@@ -50,9 +50,11 @@ Numbers run_once(const Program& program, const Numbers& inputs) {
   float* const start_planes[3] = {start[0].lane, start[1].lane, start[2].lane};
   run_lights(executable, constants, lights, registers);
   run_surfaces(executable, constants, surfaces, start_planes, registers);
-  PairResults results;
   const PairBlock pair{0, 0};
-  run_pairs(executable, constants, lights, surfaces, {&pair, 1}, results, registers);
+  const PairResults results = run_pairs(executable, constants, lights, surfaces, {&pair, 1}, registers);
+  Numbers out;
+  for (int i = 0; i < kStartOutput; ++i)
+    out[std::string(name_of_output(i))] = bits_of((i == kReachesOutput ? results.reaches : results.light[i])[kBlockLanes - 1]);
   for (int c = 0; c < 3; ++c) {
     const auto found = inputs.find(std::string("sum.") + "xyz"[c]);
     for (float& lane : sum[c].lane) lane = float_of(found == inputs.end() ? 0u : found->second);
@@ -60,12 +62,8 @@ Numbers run_once(const Program& program, const Numbers& inputs) {
   const float* const sum_planes[3] = {sum[0].lane, sum[1].lane, sum[2].lane};
   float* const finish_planes[4] = {finish[0].lane, finish[1].lane, finish[2].lane, finish[3].lane};
   run_finish(executable, constants, surfaces, sum_planes, finish_planes, registers);
-  Numbers out;
-  for (int i = 0; i < kOutputCount; ++i) {
-    const LaneBlock& block = i == kReachesOutput   ? results.reaches[0]
-                             : i < kStartOutput    ? results.light[i][0]
-                             : i < kFinishOutput   ? start[i - kStartOutput]
-                                                   : finish[i - kFinishOutput];
+  for (int i = kStartOutput; i < kOutputCount; ++i) {
+    const LaneBlock& block = i < kFinishOutput ? start[i - kStartOutput] : finish[i - kFinishOutput];
     out[std::string(name_of_output(i))] = bits_of(block.lane[kBlockLanes - 1]);
   }
   return out;

@@ -49,7 +49,6 @@ double ns_a_pair(const Executable& executable) {
   LaneValues lights = values_of(executable.at(Rate::light), kLights, light_planes),
              surfaces = values_of(executable.at(Rate::surface), kPixels, surface_planes);
   double least = 1e9;
-  PairResults results;
   for (int round = 0; round < 300; ++round) {
     const auto start = std::chrono::steady_clock::now();
     run_lights(executable, constants, lights, registers);
@@ -57,7 +56,7 @@ double ns_a_pair(const Executable& executable) {
     for (uint32_t light = 0; light < kLights; ++light) {
       PairBlock pairs[kBatchBlocks];
       for (uint32_t k = 0; k < kBatchBlocks; ++k) pairs[k] = {k * uint32_t(kBlockLanes), light};
-      run_pairs(executable, constants, lights, surfaces, pairs, results, registers);
+      run_pairs(executable, constants, lights, surfaces, pairs, registers);
     }
     const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - start;
     least = std::min(least, taken.count() / double(kPixels * kLights));
