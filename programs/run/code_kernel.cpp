@@ -43,24 +43,25 @@ HWY_NOINLINE void arc_tangents(const CodeView& view, const Instruction& one) {
     store_rounded(atan2_of(doubles(y + i), doubles(x + i)), to + i);
 }
 
-/// The exponent of all lanes if they agree on an integer in 0..8192, else -1.
-HWY_INLINE int common_power(const float* p, size_t count) {
-  const float first = p[0];
-  if (!(first >= 0.0f && first <= 8192.0f) || first != float(int(first))) return -1;
-  for (size_t i = 1; i < count; ++i)
-    if (p[i] != first) return -1;
-  return int(first);
+/// The integer in 0..8192 that an exponent is, or -1.
+HWY_INLINE int whole_power(float p) {
+  return p >= 0.0f && p <= 8192.0f && p == float(int(p)) ? int(p) : -1;
 }
 
 HWY_NOINLINE void powers(const CodeView& view, const Instruction& one) {
-  const float *const x = register_of(view, one.from[0].slot), *const p = register_of(view, one.from[1].slot);
+  const float* const x = register_of(view, one.from[0].slot);
   float* const to = register_of(view, one.to);
   const size_t count = view.blocks * kBlockLanes;
-  const int common = common_power(p, count);
-  if (common >= 0) {
-    for (size_t i = 0; i < count; i += hn::Lanes(DD())) store_rounded(integer_power(doubles(x + i), common), to + i);
+  if (one.from[1].place == Place::constant) {
+    const float exponent = view.constants[one.from[1].slot];
+    const int whole = whole_power(exponent);
+    for (size_t i = 0; i < count; i += hn::Lanes(DD())) {
+      const VD base = doubles(x + i);
+      store_rounded(whole >= 0 ? integer_power(base, whole) : power_of(base, number(double(exponent))), to + i);
+    }
     return;
   }
+  const float* const p = register_of(view, one.from[1].slot);
   for (size_t i = 0; i < count; i += hn::Lanes(DD())) store_rounded(power_of(doubles(x + i), doubles(p + i)), to + i);
 }
 

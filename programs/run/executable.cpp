@@ -29,7 +29,7 @@ bool reads_any_place(Op op) {
 }
 bool reads_place(Op op, size_t operand, Place place) {
   if (place == Place::lanes || op == Op::f_from_bits || reads_any_place(op)) return true;
-  return op == Op::select && operand > 0 && place == Place::constant;
+  return ((op == Op::select && operand > 0) || (op == Op::pow && operand == 1)) && place == Place::constant;
 }
 
 class StageMaker {

@@ -12,7 +12,7 @@
 namespace trueshade::programs {
 namespace {
 
-constexpr size_t kPixels = 512, kLights = 16;
+constexpr size_t kPixels = kBatchLanes, kLights = 16;
 
 Program model(const std::string& name) {
   std::ifstream file(std::string(TRUESHADE_SOURCE_DIR) + "/tests/programs/models/" + name);
@@ -38,7 +38,7 @@ LaneValues values_of(const Stage& stage, size_t lanes, const std::vector<std::ve
   return out;
 }
 
-/// The least ns a pair of a pixel and a light over rounds of a region of 256 pixels and 16 lights.
+/// The least ns a pair of a pixel and a light over rounds of a batch of pixels and 16 lights.
 double ns_a_pair(const Executable& executable) {
   std::mt19937 random(1);
   Registers registers(executable);
