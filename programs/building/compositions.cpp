@@ -42,9 +42,7 @@ NodeId Compositions::int_mod(NodeId x, NodeId y) {
   return b_.select(b_.both(b_.negation(is_zero), differs), b_.make(Op::i_add, rest, y), rest);
 }
 
-NodeId Compositions::mix(NodeId x, NodeId y, NodeId a) {
-  return add(mul(x, sub(b_.number(1.0f), a)), mul(y, a));
-}
+NodeId Compositions::mix(NodeId x, NodeId y, NodeId a) { return add(mul(x, sub(b_.number(1.0f), a)), mul(y, a)); }
 
 NodeId Compositions::step(NodeId edge, NodeId x) {
   return b_.select(b_.make(Op::f_lt, x, edge), b_.number(0.0f), b_.number(1.0f));

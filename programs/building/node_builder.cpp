@@ -60,9 +60,9 @@ NodeId NodeBuilder::simpler(Op op, NodeId a, NodeId b) const {
       if (is_true(a) || a == b) return b;
       if (is_true(b)) return a;
       return is_false(a) || is_false(b) || implies(a, b, false) || implies(b, a, false) ? false_
-             : implies(a, b, true)                                                     ? a
-             : implies(b, a, true)                                                     ? b
-                                                                                       : kNoNode;
+             : implies(a, b, true)                                                      ? a
+             : implies(b, a, true)                                                      ? b
+                                                                                        : kNoNode;
     case Op::b_or:
       if (is_false(a) || a == b) return b;
       if (is_false(b)) return a;

@@ -9,7 +9,8 @@
 namespace trueshade::programs {
 namespace {
 
-/// Functions of our own with the signatures that the user's may have: their names in SPIR-V say how glslang spells them.
+/// Functions of our own with the signatures that the user's may have: their names in SPIR-V say how glslang spells
+/// them.
 constexpr const char* kSignatures = R"(
 vec3 ts_light(Surface s, Light l, View v) { return vec3(0); }
 bool ts_reaches(Surface s, Light l, View v) { return false; }

@@ -24,7 +24,8 @@ struct GlslangProcess {
   GlslangProcess& operator=(const GlslangProcess&) = delete;
 };
 
-/// What a line of glslang's log says: `ERROR: TEXT:LINE: message`, and of newer versions `ERROR: TEXT:LINE:COLUMN: ...`.
+/// What a line of glslang's log says: `ERROR: TEXT:LINE: message`, and of newer versions `ERROR: TEXT:LINE:COLUMN:
+/// ...`.
 struct GlslError {
   int text = -1, line = 0, column = 0;  ///< text: 0 the user's, 1 the tail
   std::string message;

@@ -64,7 +64,8 @@ constexpr Field kFields[] = {
 /// Whether what follows a field's name is one of its scalars: "[2].w", ".x" or nothing.
 bool is_scalar_of(const Field& field, std::string_view rest) {
   if (field.count > 0) {
-    if (rest.size() < 3 || rest[0] != '[' || rest[1] < '0' || rest[1] >= '0' + field.count || rest[2] != ']') return false;
+    if (rest.size() < 3 || rest[0] != '[' || rest[1] < '0' || rest[1] >= '0' + field.count || rest[2] != ']')
+      return false;
     rest.remove_prefix(3);
   }
   if (field.shape == 0) return rest.empty();

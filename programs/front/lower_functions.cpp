@@ -143,7 +143,8 @@ bool Lowering::vector_function(GlslFunction function, const SpirvInstruction& on
   const auto other = [&](size_t i) -> const Scalars& { return operand(one, 4 + i, kF, first().size()); };
   const auto matrix_size = [&]() -> size_t {
     const SpirvType& type = m_.type(value(one.word(4)).type);
-    if (type.kind != Kind::matrix || m_.type(type.element).count != type.count) refuse_damage("a matrix that is no square");
+    if (type.kind != Kind::matrix || m_.type(type.element).count != type.count)
+      refuse_damage("a matrix that is no square");
     return type.count;
   };
   switch (function) {
@@ -230,7 +231,8 @@ void Lowering::two_results(GlslFunction function, const SpirvInstruction& one) {
     first.insert(first.end(), second.begin(), second.end());
   } else {
     const Pointer& to = pointer_of(one.word(5));
-    if (m_.type(m_.type(value(one.word(5)).type).element).scalars != second.size()) refuse_damage("a result of another size");
+    if (m_.type(m_.type(value(one.word(5)).type).element).scalars != second.size())
+      refuse_damage("a result of another size");
     store(to, second);
   }
   define(one.word(1), one.word(0), std::move(first));

@@ -49,9 +49,7 @@ bool Lowering::linear_algebra(const SpirvInstruction& one) {
         const bool adds = one.op() == SpirvOp::kIAddCarry, subtracts = one.op() == SpirvOp::kISubBorrow;
         low.push_back(b_.make(adds ? Op::i_add : subtracts ? Op::i_sub : Op::i_mul, a[i], b[i]));
         const Op product = one.op() == SpirvOp::kUMulExtended ? Op::u_mul_high : Op::i_mul_high;
-        high.push_back(adds        ? c_.carry(a[i], b[i])
-                       : subtracts ? c_.borrow(a[i], b[i])
-                                   : b_.make(product, a[i], b[i]));
+        high.push_back(adds ? c_.carry(a[i], b[i]) : subtracts ? c_.borrow(a[i], b[i]) : b_.make(product, a[i], b[i]));
       }
       low.insert(low.end(), high.begin(), high.end());
       return made(std::move(low));

@@ -195,15 +195,14 @@ void Lowering::store(const Pointer& pointer, const Scalars& value) {
   store_at(variable, pointer, 0, pointer.offset, value, mask_for(variable));
 }
 
-void Lowering::store_at(Variable& variable, const Pointer& pointer, size_t level, uint32_t offset,
-                        const Scalars& value, NodeId mask) {
+void Lowering::store_at(Variable& variable, const Pointer& pointer, size_t level, uint32_t offset, const Scalars& value,
+                        NodeId mask) {
   work(value.size());
   if (level < pointer.dynamic.size()) {
     const DynamicIndex& dynamic = pointer.dynamic[level];
     for (uint32_t k = 0; k < dynamic.count; ++k) {
-      const NodeId here = k + 1 < dynamic.count
-                              ? b_.make(Op::i_eq, dynamic.index, b_.word(k))
-                              : b_.negation(b_.make(Op::u_lt, dynamic.index, b_.word(k)));
+      const NodeId here = k + 1 < dynamic.count ? b_.make(Op::i_eq, dynamic.index, b_.word(k))
+                                                : b_.negation(b_.make(Op::u_lt, dynamic.index, b_.word(k)));
       store_at(variable, pointer, level + 1, offset + k * dynamic.stride, value, b_.both(mask, here));
     }
     return;

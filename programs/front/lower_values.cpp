@@ -71,8 +71,7 @@ void Lowering::global(const SpirvInstruction& one) {
     case SpirvOp::kConstantFalse:
     case SpirvOp::kSpecConstantFalse:
       if (m_.type(type).kind != Kind::boolean) refuse_damage("a truth that is no boolean");
-      return define(id, type,
-                    {b_.truth(one.op() == SpirvOp::kConstantTrue || one.op() == SpirvOp::kSpecConstantTrue)});
+      return define(id, type, {b_.truth(one.op() == SpirvOp::kConstantTrue || one.op() == SpirvOp::kSpecConstantTrue)});
     case SpirvOp::kConstant:
     case SpirvOp::kSpecConstant: {
       const Kind kind = m_.type(type).kind;

@@ -47,7 +47,7 @@ class Lowering {
 
   struct Variable {
     uint32_t type = 0;
-    size_t frame = 0;                ///< the call that it belongs to
+    size_t frame = 0;  ///< the call that it belongs to
     Scalars scalars;
     std::vector<ProgramInput> input;  ///< of a uniform block, for each scalar
     bool is_read_only = false, is_result = false;
@@ -64,10 +64,10 @@ class Lowering {
   struct Frame {
     const SpirvFunction* function = nullptr;
     const BlockOrder* order = nullptr;
-    NodeId call_mask = 0;  ///< of the caller
-    NodeId mask = 0;       ///< of the block
-    NodeId present = 0;    ///< lanes that have not returned
-    uint32_t label = 0;    ///< of the block
+    NodeId call_mask = 0;                  ///< of the caller
+    NodeId mask = 0;                       ///< of the block
+    NodeId present = 0;                    ///< lanes that have not returned
+    uint32_t label = 0;                    ///< of the block
     std::vector<std::vector<Edge>> edges;  ///< by position, to blocks that have not run yet
     std::vector<Construct> constructs;
     Scalars returned;

@@ -10,9 +10,7 @@
 namespace trueshade::programs {
 
 void refuse(std::string reason, std::string remedy) { throw Refusal{std::move(reason), std::move(remedy)}; }
-void refuse_damage(std::string reason) {
-  refuse("the SPIR-V is damaged: " + std::move(reason), "compile it again");
-}
+void refuse_damage(std::string reason) { refuse("the SPIR-V is damaged: " + std::move(reason), "compile it again"); }
 
 std::string name_of_opcode(uint32_t opcode) {
   const char* name = spvOpcodeString(opcode);

@@ -30,15 +30,28 @@ struct SpirvInstruction {
 };
 
 struct SpirvType {
-  enum class Kind : uint8_t { none, void_, boolean, i32, u32, f32, vector, matrix, array, structure, pointer, function };
+  enum class Kind : uint8_t {
+    none,
+    void_,
+    boolean,
+    i32,
+    u32,
+    f32,
+    vector,
+    matrix,
+    array,
+    structure,
+    pointer,
+    function
+  };
   Kind kind = Kind::none;
-  uint32_t element = 0;             ///< of a vector, matrix (its column), array, pointer; a function's result
-  uint32_t count = 0;               ///< of elements
-  uint32_t scalars = 0;             ///< in all; 0 of what holds no values
-  uint32_t depth = 0;               ///< of aggregates in aggregates
-  std::vector<uint32_t> members;    ///< of a structure; a function's parameters
-  std::vector<uint32_t> first;      ///< where each member's scalars start
-  SpirvStorage storage{};           ///< of a pointer
+  uint32_t element = 0;           ///< of a vector, matrix (its column), array, pointer; a function's result
+  uint32_t count = 0;             ///< of elements
+  uint32_t scalars = 0;           ///< in all; 0 of what holds no values
+  uint32_t depth = 0;             ///< of aggregates in aggregates
+  std::vector<uint32_t> members;  ///< of a structure; a function's parameters
+  std::vector<uint32_t> first;    ///< where each member's scalars start
+  SpirvStorage storage{};         ///< of a pointer
 
   bool is_scalar() const { return kind >= Kind::boolean && kind <= Kind::f32; }
 };
@@ -78,8 +91,8 @@ struct SpirvModule {
   std::string name(uint32_t id) const;
 };
 
-/// `words` are a file's, in the byte order of this machine. Refusal for what is not a module, or has what light programs
-/// cannot have.
+/// `words` are a file's, in the byte order of this machine. Refusal for what is not a module, or has what light
+/// programs cannot have.
 SpirvModule spirv_module(std::vector<uint32_t> words);
 
 /// Adds a type; used by spirv_module(). constant_of: the value of an integer constant that is declared before.

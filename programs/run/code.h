@@ -6,7 +6,8 @@
 
 namespace trueshade::programs {
 
-/// Lanes go through a program in blocks, so many of them in a batch. A block is a whole number of vectors of any target.
+/// Lanes go through a program in blocks, so many of them in a batch. A block is a whole number of vectors of any
+/// target.
 inline constexpr size_t kBlockLanes = 16, kBatchBlocks = 32, kBatchLanes = kBlockLanes * kBatchBlocks;
 
 /// Where an operand lies. A register and a plane have a value a lane; a constant is one, and a light's value holds for

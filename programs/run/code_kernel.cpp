@@ -1,4 +1,5 @@
 #include "core/simd/one_target.h"
+
 #include "programs/run/code.h"
 // Above, what makes this file one SIMD target's.
 #include "programs/run/double_functions-inl.h"
@@ -24,7 +25,8 @@ template <VD (*kFunction)(VD)>
 HWY_NOINLINE void in_double(const CodeView& view, const Instruction& one) {
   const float* const a = register_of(view, one.from[0].slot);
   float* const to = register_of(view, one.to);
-  for (size_t i = 0; i < view.blocks * kBlockLanes; i += hn::Lanes(DD())) store_rounded(kFunction(doubles(a + i)), to + i);
+  for (size_t i = 0; i < view.blocks * kBlockLanes; i += hn::Lanes(DD()))
+    store_rounded(kFunction(doubles(a + i)), to + i);
 }
 
 HWY_INLINE VD exp_function(VD x) { return exp2_of(hn::Mul(x, number(kLog2OfE))); }
@@ -44,9 +46,7 @@ HWY_NOINLINE void arc_tangents(const CodeView& view, const Instruction& one) {
 }
 
 /// The integer in 0..8192 that an exponent is, or -1.
-HWY_INLINE int whole_power(float p) {
-  return p >= 0.0f && p <= 8192.0f && p == float(int(p)) ? int(p) : -1;
-}
+HWY_INLINE int whole_power(float p) { return p >= 0.0f && p <= 8192.0f && p == float(int(p)) ? int(p) : -1; }
 
 HWY_NOINLINE void powers(const CodeView& view, const Instruction& one) {
   const float* const x = register_of(view, one.from[0].slot);
@@ -98,7 +98,7 @@ HWY_INLINE VD sum_to_odd(VD a, VD b) {
 
 HWY_NOINLINE void fused(const CodeView& view, const Instruction& one) {
   const float *const a = register_of(view, one.from[0].slot), *const b = register_of(view, one.from[1].slot),
-              *const c = register_of(view, one.from[2].slot);
+                     *const c = register_of(view, one.from[2].slot);
   float* const to = register_of(view, one.to);
   for (size_t i = 0; i < view.blocks * kBlockLanes; i += hn::Lanes(DD()))
     store_rounded(sum_to_odd(hn::Mul(doubles(a + i), doubles(b + i)), doubles(c + i)), to + i);

@@ -1,5 +1,5 @@
-// Functions that are evaluated in double, operation by operation as docs/arithmetic.md has them, for vectors of doubles.
-// Included once per SIMD target.
+// Functions that are evaluated in double, operation by operation as docs/arithmetic.md has them, for vectors of
+// doubles. Included once per SIMD target.
 #if defined(TRUESHADE_PROGRAMS_RUN_DOUBLE_FUNCTIONS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRUESHADE_PROGRAMS_RUN_DOUBLE_FUNCTIONS_INL_H_
 #undef TRUESHADE_PROGRAMS_RUN_DOUBLE_FUNCTIONS_INL_H_
@@ -157,7 +157,8 @@ HWY_INLINE SineCosine sine_cosine(VD x) {
   const MD near = hn::Le(hn::Abs(x), number(1e6));
   x = hn::IfThenElse(near, x, hn::NaN(d));
   const VD n = rounded_away(hn::Mul(x, number(2.0 / 3.14159265358979323846)));
-  const VD rest = hn::Sub(hn::Sub(x, hn::Mul(n, number(1.5707963267341256))), hn::Mul(n, number(6.077100506506192e-11)));
+  const VD rest =
+      hn::Sub(hn::Sub(x, hn::Mul(n, number(1.5707963267341256))), hn::Mul(n, number(6.077100506506192e-11)));
   const auto quadrant = hn::BitCast(dw, hn::Add(n, number(kWholeShift)));
   const auto zero = hn::Zero(dw);
   const auto odd = hn::RebindMask(d, hn::Ne(hn::And(quadrant, hn::Set(dw, 1)), zero));

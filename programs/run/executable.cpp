@@ -24,9 +24,7 @@ class RegisterPool {
 };
 
 /// Which operands an operation can read where they lie, instead of from a register.
-bool reads_any_place(Op op) {
-  return (op >= Op::f_add && op <= Op::f_div) || (op >= Op::f_min && op <= Op::f_le);
-}
+bool reads_any_place(Op op) { return (op >= Op::f_add && op <= Op::f_div) || (op >= Op::f_min && op <= Op::f_le); }
 bool reads_place(Op op, size_t operand, Place place) {
   if (place == Place::lanes || op == Op::f_from_bits || reads_any_place(op)) return true;
   return ((op == Op::select && operand > 0) || (op == Op::pow && operand == 1)) && place == Place::constant;
@@ -95,7 +93,8 @@ class StageMaker {
       if (!computed(id) || (node.op != Op::f_add && node.op != Op::f_sub)) continue;
       for (const size_t i : {size_t(1), size_t(0)}) {
         const NodeId factor = node.operand[i], other = node.operand[1 - i];
-        if (program_.nodes[factor].op != Op::f_mul || uses[factor] != 1 || !computed(factor) || !computed(other)) continue;
+        if (program_.nodes[factor].op != Op::f_mul || uses[factor] != 1 || !computed(factor) || !computed(other))
+          continue;
         if (product_[factor] != kNoNode) continue;
         product_[id] = factor;
         inside_[factor] = true;

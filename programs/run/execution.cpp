@@ -38,7 +38,8 @@ void copy_value(Source from, const BatchPlaces& places, const BatchBlocks& block
     std::memcpy(to, registers.data() + from.slot * kBatchLanes, blocks.count * sizeof(LaneBlock));
     return;
   }
-  run_code({&one, 1, to, places.planes, places.constants, places.lights, blocks.plane_lane, blocks.light, blocks.count});
+  run_code(
+      {&one, 1, to, places.planes, places.constants, places.lights, blocks.plane_lane, blocks.light, blocks.count});
 }
 
 /// A stage whose lanes lie side by side, and where its kept values go.

@@ -27,8 +27,8 @@ class Registers {
   std::vector<LaneBlock> blocks_;
 };
 
-/// Values of one rate, a plane each, of a number of lanes that is a multiple of kBlockLanes. The caller points the first
-/// planes at inputs of its own, in the order of Stage::inputs, 64-byte aligned; the others are kept here.
+/// Values of one rate, a plane each, of a number of lanes that is a multiple of kBlockLanes. The caller points the
+/// first planes at inputs of its own, in the order of Stage::inputs, 64-byte aligned; the others are kept here.
 class LaneValues {
  public:
   LaneValues(const Stage& stage, size_t lanes);

@@ -99,7 +99,7 @@ inline constexpr int kOpCount = int(Op::atanh) + 1;
 /// How an operation is written down and what it takes.
 struct OpInfo {
   std::string_view name;
-  Type result;      ///< that of `constant`, `input` and `select` is the node's own
+  Type result;  ///< that of `constant`, `input` and `select` is the node's own
   int operands;
   Type operand[3];  ///< an integer where the signedness does not matter is i32
 };

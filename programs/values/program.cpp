@@ -10,8 +10,9 @@ std::string_view name_of(Rate rate) {
 }
 
 std::string_view name_of_output(int output) {
-  constexpr std::string_view kNames[kOutputCount] = {"light.x", "light.y", "light.z",  "reaches",  "start.x", "start.y",
-                                                     "start.z", "finish.x", "finish.y", "finish.z", "finish.w"};
+  constexpr std::string_view kNames[kOutputCount] = {"light.x",  "light.y",  "light.z", "reaches",
+                                                     "start.x",  "start.y",  "start.z", "finish.x",
+                                                     "finish.y", "finish.z", "finish.w"};
   return kNames[output];
 }
 

@@ -53,8 +53,8 @@ std::string_view name_of_output(int output);
 /// A light model: what one light adds to a pixel, whether it reaches it, what the sum starts from and what becomes of
 /// it, as scalar operations.
 struct Program {
-  std::string name;    ///< of the file
-  std::string sha256;  ///< of the SPIR-V
+  std::string name;                                                             ///< of the file
+  std::string sha256;                                                           ///< of the SPIR-V
   bool defines_reaches = false, defines_start = false, defines_finish = false;  ///< false: the default
   std::vector<ProgramInput> inputs;
   std::vector<ProgramNode> nodes;

@@ -14,9 +14,7 @@ using V3 = std::array<float, 3>;
 float dot(V3 a, V3 b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
 V3 times(V3 a, float x) { return {a[0] * x, a[1] * x, a[2] * x}; }
 V3 minus(V3 a, V3 b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-V3 cross(V3 a, V3 b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+V3 cross(V3 a, V3 b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
 float least(float a, float b) { return a < b ? a : b; }
 float most(float a, float b) { return a > b ? a : b; }
 V3 each(V3 a, V3 b, float (*f)(float, float)) { return {f(a[0], b[0]), f(a[1], b[1]), f(a[2], b[2])}; }
@@ -52,7 +50,10 @@ const std::vector<Case> kCases = {
        return {dot(a, b), std::sqrt(dot(a, a)), std::sqrt(dot(d, d))};
      }},
     {"normalize(a)", [](V3 a, V3, float) { return times(a, dot(a, a) > 0 ? 1.0f / std::sqrt(dot(a, a)) : 0.0f); }},
-    {"normalize(a - a)", [](V3, V3, float) -> V3 { return {0, 0, 0}; }},
+    {"normalize(a - a)",
+     [](V3, V3, float) -> V3 {
+       return {0, 0, 0};
+     }},
     {"cross(a, b)", [](V3 a, V3 b, float) { return cross(a, b); }},
     {"reflect(a, b)", [](V3 a, V3 b, float) { return minus(a, times(b, 2.0f * dot(b, a))); }},
     {"refract(a, b, c)",
@@ -75,7 +76,8 @@ const std::vector<Case> kCases = {
          return (t * t) * (3.0f - 2.0f * t);
        });
      }},
-    {"mod(a, b)", [](V3 a, V3 b, float) { return each(a, b, [](float x, float y) { return x - y * std::floor(x / y); }); }},
+    {"mod(a, b)",
+     [](V3 a, V3 b, float) { return each(a, b, [](float x, float y) { return x - y * std::floor(x / y); }); }},
     {"fract(a) + sign(b) * step(a, b)",
      [](V3 a, V3 b, float) {
        return each(a, b, [](float x, float y) {
@@ -93,7 +95,9 @@ const std::vector<Case> kCases = {
        return each(a, b, [](float x, float y) { return 1.0f / std::sqrt(std::abs(x)) + y * 0.01745329251994329577f; });
      }},
     {"fma(a, b, vec3(c))",
-     [](V3 a, V3 b, float c) -> V3 { return {std::fma(a[0], b[0], c), std::fma(a[1], b[1], c), std::fma(a[2], b[2], c)}; }},
+     [](V3 a, V3 b, float c) -> V3 {
+       return {std::fma(a[0], b[0], c), std::fma(a[1], b[1], c), std::fma(a[2], b[2], c)};
+     }},
     {"mat3(a, b, vec3(a.y, b.z, a.x)) * b",
      [](V3 a, V3 b, float) -> V3 {
        const M3 m = matrix(a, b);
@@ -122,7 +126,8 @@ const std::vector<Case> kCases = {
      }},
     {"vec3(determinant(mat4(a, c, b, c, a.zxy, c, b.yxz, 1.0)))",
      [](V3 a, V3 b, float c) -> V3 {
-       const float m[4][4] = {{a[0], a[1], a[2], c}, {b[0], b[1], b[2], c}, {a[2], a[0], a[1], c}, {b[1], b[0], b[2], 1}};
+       const float m[4][4] = {
+           {a[0], a[1], a[2], c}, {b[0], b[1], b[2], c}, {a[2], a[0], a[1], c}, {b[1], b[0], b[2], 1}};
        float sum = 0;
        for (size_t row = 0; row < 4; ++row) {
          M3 rest;
@@ -143,16 +148,18 @@ const std::vector<Case> kCases = {
      [](V3 a, V3 b, float c) -> V3 {
        uint32_t packed = 0;
        const float in[4] = {a[0], a[1], a[2], c};
-       for (int k = 0; k < 4; ++k)
-         packed |= uint32_t(std::nearbyint(least(most(in[k], 0.0f), 1.0f) * 255.0f)) << 8 * k;
+       for (int k = 0; k < 4; ++k) packed |= uint32_t(std::nearbyint(least(most(in[k], 0.0f), 1.0f) * 255.0f)) << 8 * k;
        V3 out{float_of(packed), 0, 0};
        for (size_t k = 0; k < 2; ++k)
          out[k + 1] = least(most(std::nearbyint(least(most(b[k], -1.0f), 1.0f) * 32767.0f) / 32767.0f, -1.0f), 1.0f);
        return out;
      }},
     {"vec3(unpackHalf2x16(packHalf2x16(vec2(1.0009765625, c * 0.0))), float(bitfieldExtract(-9, 1, 5)))",
-     [](V3, V3, float c) -> V3 { return {1.0009765625f, c * 0.0f, float((-9 >> 1) << 27 >> 27)}; }},
-    {"vec3(float(findMSB(int(a.x * 100.0))), float(bitCount(uint(abs(b.x) * 999.0))), float(bitfieldInsert(7u, 5u, 4, 3)))",
+     [](V3, V3, float c) -> V3 {
+       return {1.0009765625f, c * 0.0f, float((-9 >> 1) << 27 >> 27)};
+     }},
+    {"vec3(float(findMSB(int(a.x * 100.0))), float(bitCount(uint(abs(b.x) * 999.0))), float(bitfieldInsert(7u, 5u, 4, "
+     "3)))",
      [](V3 a, V3 b, float) -> V3 {
        const int x = int(a[0] * 100.0f);
        int highest = -1;
@@ -168,7 +175,9 @@ V3 random_vector(RandomWords& random) {
   return out;
 }
 
-bool same(float a, float b) { return bits_of(a) == bits_of(b) || (std::isnan(a) && std::isnan(b)) || (a == 0 && b == 0); }
+bool same(float a, float b) {
+  return bits_of(a) == bits_of(b) || (std::isnan(a) && std::isnan(b)) || (a == 0 && b == 0);
+}
 
 }  // namespace
 
@@ -176,17 +185,21 @@ TEST_CASE("Functions of vectors and matrices are composed as stated") {
   RandomWords random(5);
   for (const Case& c : kCases) {
     const std::string glsl = c.glsl;
-    const Program program = program_of_light(
-        "vec3 a = s.position, b = s.normal; float c = s.metallic; int ai; return " + glsl + ";");
+    const Program program =
+        program_of_light("vec3 a = s.position, b = s.normal; float c = s.metallic; int ai; return " + glsl + ";");
     for (int round = 0; round < 200; ++round) {
       const V3 a = random_vector(random), b = random_vector(random);
       const float factor = random_vector(random)[0];
-      const std::vector<float> made =
-          light_of(program, {{"surface.position.x", a[0]}, {"surface.position.y", a[1]}, {"surface.position.z", a[2]},
-                             {"surface.normal.x", b[0]}, {"surface.normal.y", b[1]}, {"surface.normal.z", b[2]},
-                             {"surface.metallic", factor}});
+      const std::vector<float> made = light_of(program, {{"surface.position.x", a[0]},
+                                                         {"surface.position.y", a[1]},
+                                                         {"surface.position.z", a[2]},
+                                                         {"surface.normal.x", b[0]},
+                                                         {"surface.normal.y", b[1]},
+                                                         {"surface.normal.z", b[2]},
+                                                         {"surface.metallic", factor}});
       const V3 wanted = c.wanted(a, b, factor);
-      INFO(glsl << " of " << a[0] << " " << a[1] << " " << a[2] << ", " << b[0] << " " << b[1] << " " << b[2] << ", " << factor);
+      INFO(glsl << " of " << a[0] << " " << a[1] << " " << a[2] << ", " << b[0] << " " << b[1] << " " << b[2] << ", "
+                << factor);
       for (size_t k = 0; k < 3; ++k) {
         INFO(made[k] << " for " << wanted[k]);
         REQUIRE(same(made[k], wanted[k]));

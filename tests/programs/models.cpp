@@ -79,9 +79,11 @@ void check_model(const std::string& name, const LightModel& model) {
   ConstantValues constants(executable);
   const auto& inputs = executable.at(Rate::constant).inputs;
   for (size_t i = 0; i < inputs.size(); ++i)
-    constants.set_input(i, bits_of((&sample.scene.camera.eye.x)[executable.program.inputs[inputs[i]].name.back() - 'x']));
+    constants.set_input(i,
+                        bits_of((&sample.scene.camera.eye.x)[executable.program.inputs[inputs[i]].name.back() - 'x']));
   run_constants(executable, constants, registers);
-  LaneValues lights(executable.at(Rate::light), sample.scene.lights.size()), surfaces(executable.at(Rate::surface), kCount);
+  LaneValues lights(executable.at(Rate::light), sample.scene.lights.size()),
+      surfaces(executable.at(Rate::surface), kCount);
   sample.bind(executable, Rate::light, lights);
   sample.bind(executable, Rate::surface, surfaces);
   run_lights(executable, constants, lights, registers);

@@ -13,12 +13,13 @@ namespace trueshade::programs {
 namespace {
 
 constexpr uint32_t kSpecial[] = {
-    0x00000000u, 0x80000000u, 0x3F800000u, 0xBF800000u, 0x7F800000u, 0xFF800000u, 0x7FC00000u, 0xFFC00000u, 0x7F800001u,
-    0x00000001u, 0x80000001u, 0x007FFFFFu, 0x00800000u, 0x7F7FFFFFu, 0xFF7FFFFFu, 0x3F000000u, 0xBF000000u, 0x3EFFFFFFu,
-    0x3FC00000u, 0x40200000u, 0xBFC00000u, 0x4B000000u, 0x4B7FFFFFu, 0x4EFFFFFFu, 0x4F000000u, 0xCF000000u, 0xCF000001u,
-    0x4F7FFFFFu, 0x4F800000u, 0x46000000u, 0x46000001u, 0x42000000u, 0x41200000u, 0x3B800000u, 0x3B7FFFFFu, 0x41A00000u,
-    0x477FF000u, 0x477FEFFFu, 0x33000000u, 0x33000001u, 0x387FE000u, 0x49742400u, 0x49742401u, 0x3F7FFFFFu, 0x3F800001u,
-    0x0000001Fu, 0x00000020u, 0xFFFFFFFFu, 0x7FFFFFFFu, 0x0000012Cu, 0xFFFFFED4u, 0x40490FDBu, 0x3FC90FDBu, 0x43480000u};
+    0x00000000u, 0x80000000u, 0x3F800000u, 0xBF800000u, 0x7F800000u, 0xFF800000u, 0x7FC00000u, 0xFFC00000u,
+    0x7F800001u, 0x00000001u, 0x80000001u, 0x007FFFFFu, 0x00800000u, 0x7F7FFFFFu, 0xFF7FFFFFu, 0x3F000000u,
+    0xBF000000u, 0x3EFFFFFFu, 0x3FC00000u, 0x40200000u, 0xBFC00000u, 0x4B000000u, 0x4B7FFFFFu, 0x4EFFFFFFu,
+    0x4F000000u, 0xCF000000u, 0xCF000001u, 0x4F7FFFFFu, 0x4F800000u, 0x46000000u, 0x46000001u, 0x42000000u,
+    0x41200000u, 0x3B800000u, 0x3B7FFFFFu, 0x41A00000u, 0x477FF000u, 0x477FEFFFu, 0x33000000u, 0x33000001u,
+    0x387FE000u, 0x49742400u, 0x49742401u, 0x3F7FFFFFu, 0x3F800001u, 0x0000001Fu, 0x00000020u, 0xFFFFFFFFu,
+    0x7FFFFFFFu, 0x0000012Cu, 0xFFFFFED4u, 0x40490FDBu, 0x3FC90FDBu, 0x43480000u};
 
 /// Bits that an operand of a type may have: specials, small numbers, any.
 uint32_t random_bits(Type type, RandomWords& random) {
@@ -29,7 +30,8 @@ uint32_t random_bits(Type type, RandomWords& random) {
     case 1:
       return type == Type::f32 ? bits_of(float(int(random() % 64)) / 4.0f - 8.0f) : random() % 64 - 32;
     case 2:
-      return type == Type::f32 ? bits_of(std::ldexp(float(random()) / 0x1p31f - 1.0f, int(random() % 24) - 12)) : random();
+      return type == Type::f32 ? bits_of(std::ldexp(float(random()) / 0x1p31f - 1.0f, int(random() % 24) - 12))
+                               : random();
     default:
       return random();
   }
@@ -56,8 +58,8 @@ std::string first_fault(Op op, RandomWords& random) {
     if (made == register_word(about.result, wanted)) continue;
     if (about.result == Type::f32 && is_nan(made) && is_nan(wanted)) continue;
     char text[160];
-    std::snprintf(text, sizeof(text), "%s of %08X %08X %08X is %08X, not %08X", std::string(about.name).c_str(), a, b, c,
-                  made, wanted);
+    std::snprintf(text, sizeof(text), "%s of %08X %08X %08X is %08X, not %08X", std::string(about.name).c_str(), a, b,
+                  c, made, wanted);
     return text;
   }
   return {};
@@ -85,7 +87,8 @@ TEST_CASE("Operands are read where they lie: registers, planes, constants and li
   const float constants[] = {0.5f, 7.0f}, lights[] = {10.0f, 20.0f, 30.0f};
   const float *const planes[] = {nullptr, plane}, *const light_values[] = {nullptr, nullptr, lights};
   uint32_t first[kBatchBlocks], light[kBatchBlocks];
-  for (uint32_t k = 0; k < kBatchBlocks; ++k) first[k] = uint32_t((kBatchBlocks - 1 - k) * kBlockLanes), light[k] = k % 3;
+  for (uint32_t k = 0; k < kBatchBlocks; ++k)
+    first[k] = uint32_t((kBatchBlocks - 1 - k) * kBlockLanes), light[k] = k % 3;
   const auto at = [&](Source source, size_t lane) {
     const size_t block = lane / kBlockLanes;
     return source.place == Place::lanes      ? float(lane)

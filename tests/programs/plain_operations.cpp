@@ -51,7 +51,8 @@ double plain_pow(float x, float y) {
 /// Section 1: which of sine and cosine, 0 or 1 quadrants on.
 double plain_wave(double x, int quadrants) {
   if (!(std::abs(x) <= 1e6)) return kNan;
-  const double n = std::round(x * (2 / 3.141592653589793)), r = (x - n * 1.5707963267341256) - n * 6.077100506506192e-11;
+  const double n = std::round(x * (2 / 3.141592653589793)),
+               r = (x - n * 1.5707963267341256) - n * 6.077100506506192e-11;
   const int quadrant = int((static_cast<long long>(n) + quadrants) & 3);
   const double z = r * r;
   double factorial = 1, sum = 0, terms[18];

@@ -54,7 +54,8 @@ Numbers run_once(const Program& program, const Numbers& inputs) {
   const PairResults results = run_pairs(executable, constants, lights, surfaces, {&pair, 1}, registers);
   Numbers out;
   for (int i = 0; i < kStartOutput; ++i)
-    out[std::string(name_of_output(i))] = bits_of((i == kReachesOutput ? results.reaches : results.light[i])[kBlockLanes - 1]);
+    out[std::string(name_of_output(i))] =
+        bits_of((i == kReachesOutput ? results.reaches : results.light[i])[kBlockLanes - 1]);
   for (int c = 0; c < 3; ++c) {
     const auto found = inputs.find(std::string("sum.") + "xyz"[c]);
     for (float& lane : sum[c].lane) lane = float_of(found == inputs.end() ? 0u : found->second);
