@@ -5,7 +5,7 @@
 namespace trueshade::programs {
 namespace {
 
-constexpr size_t kMostSteps = 50'000'000, kMostCalls = 128, kMostOpenLoops = 64;
+constexpr size_t kMostSteps = 5'000'000, kMostCalls = 128, kMostOpenLoops = 64;
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 
 #include "core/simd/simd_target.h"
 #include "programs/building/node_builder.h"
+#include "programs/building/specialised.h"
 #include "tests/catch.hpp"
 #include "tests/programs/plain_operations.h"
 #include "tests/programs/random_words.h"
@@ -190,6 +191,25 @@ TEST_CASE("Random programs of all operations and rates have the bits of their no
       INFO("seed " << seed << " on " << target << "\n" << text_of(program));
       check_program(program, random);
     }
+  }
+}
+
+TEST_CASE("A program of known inputs has the bits of the program under these inputs") {
+  for (uint32_t seed = 0; seed < 150; ++seed) {
+    const Program program = RandomProgram(seed).made();
+    RandomWords random(seed);
+    Numbers inputs;
+    std::map<std::string, uint32_t> known;
+    for (const ProgramInput& input : program.inputs) {
+      inputs[input.name] = input.type == Type::f32 ? bits_of(float(random() % 512) / 64.0f - 4.0f) : random() % 64;
+      if (random() % 2 == 0 && input.rate != Rate::sum) known[input.name] = inputs[input.name];
+    }
+    const Program less = specialised(program, known);
+    CHECK(less.nodes.size() <= program.nodes.size());
+    CHECK(less.inputs.size() + known.size() <= program.inputs.size());
+    Numbers wanted = run_once(program, inputs), made = run_once(less, inputs);
+    INFO("seed " << seed);
+    for (const auto& [name, bits] : wanted) CHECK(same(made[name], bits));
   }
 }
 
