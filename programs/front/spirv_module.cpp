@@ -227,6 +227,8 @@ class ModuleReader {
       case SpirvOp::kUnreachable:
         open_ = false;
         return;
+      case SpirvOp::kKill:
+        refuse("discards the pixel", "return 0 where the light adds nothing");
       default:
         return;
     }

@@ -32,7 +32,8 @@ enum class SpirvOp : uint32_t {
   kFOrdGreaterThanEqual = 190, kFUnordGreaterThanEqual = 191, kShiftRightLogical = 194, kShiftRightArithmetic = 195,
   kShiftLeftLogical = 196, kBitwiseOr = 197, kBitwiseXor = 198, kBitwiseAnd = 199, kNot = 200, kBitFieldInsert = 201,
   kBitFieldSExtract = 202, kBitFieldUExtract = 203, kBitReverse = 204, kBitCount = 205, kPhi = 245, kLoopMerge = 246,
-  kSelectionMerge = 247, kLabel = 248, kBranch = 249, kBranchConditional = 250, kSwitch = 251, kReturn = 253,
+  kSelectionMerge = 247, kLabel = 248, kBranch = 249, kBranchConditional = 250, kSwitch = 251, kKill = 252,
+  kReturn = 253,
   kReturnValue = 254, kUnreachable = 255, kNoLine = 317, kModuleProcessed = 330, kExecutionModeId = 331,
   kDecorateId = 332, kCopyLogical = 400, kDecorateString = 5632, kMemberDecorateString = 5633,
 };
