@@ -127,7 +127,7 @@ class OrderMaker {
         const SpirvInstruction& one = module_.instructions[k];
         for (const uint32_t word : one.operands)
           if (const auto found = end_of.find(word); found != end_of.end() && found->second <= i)
-            out_.outlives_loop.insert(word);
+            if (out_.outlives_loop.insert(word).second) out_.outliving[found->second].push_back(word);
         if (has_result(one.op()) && !ends.empty() && one.size() > 1) end_of[one.word(1)] = ends.back();
       }
     }

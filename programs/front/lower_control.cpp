@@ -42,6 +42,7 @@ Scalars Lowering::call(uint32_t id, std::span<const uint32_t> arguments) {
   next.function = &function;
   next.order = &order_of(function);
   next.call_mask = frames_.empty() ? b_.truth(true) : frame().mask;
+  for (const uint32_t outliving : next.order->outlives_loop) kept_.erase(outliving);  // of an earlier call
   next.present = b_.truth(true);
   next.edges.resize(next.order->block.size());
   next.edges[0].push_back({b_.truth(true), {}});
@@ -91,6 +92,10 @@ void Lowering::run_loop(size_t header) {
     run_blocks(header + 1, end);
   }
   --frame().loops;
+  const auto outliving = frame().order->outliving.find(end);
+  if (outliving == frame().order->outliving.end()) return;
+  for (const uint32_t id : outliving->second)
+    if (const auto kept = kept_.find(id); kept != kept_.end()) values_[id].scalars = kept->second;
 }
 
 /// Ends the constructs that come out at a position; the mask of those that do.

@@ -20,12 +20,16 @@ const Value& Lowering::value(uint32_t id) const {
   return found;
 }
 
-/// Gives an id its value. What lanes that left a loop take out of it is not overwritten by those that go on.
+/// Gives an id its value. What lanes that left a loop take out of it is kept beside it until the loop ends.
 void Lowering::define(uint32_t id, uint32_t type, Scalars scalars) {
   if (scalars.size() != m_.type(type).scalars || scalars.empty()) refuse_damage("a result of another type");
   Value& place = values_[m_.checked(id)];
-  if (!frames_.empty() && place.type == type && frame().order->outlives_loop.contains(id))
-    for (size_t i = 0; i < scalars.size(); ++i) scalars[i] = b_.select(frame().mask, scalars[i], place.scalars[i]);
+  if (!frames_.empty() && frame().order->outlives_loop.contains(id)) {
+    Scalars& kept = kept_[id];
+    const bool is_first = kept.size() != scalars.size();
+    if (is_first) kept = scalars;
+    for (size_t i = 0; i < scalars.size(); ++i) kept[i] = b_.select(frame().mask, scalars[i], kept[i]);
+  }
   place.type = type;
   place.scalars = std::move(scalars);
 }

@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "programs/building/compositions.h"
@@ -144,6 +145,7 @@ class Lowering {
   const ProgramLimits& limits_;
   const bool main_is_ours_;  ///< its lines are none of the user's
   std::vector<Value> values_;
+  std::unordered_map<uint32_t, Scalars> kept_;  ///< of ids that outlive their loop, with lanes that have left it
   std::vector<Variable> variables_;
   std::vector<Frame> frames_;
   std::map<uint32_t, BlockOrder> orders_;

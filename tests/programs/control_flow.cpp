@@ -1,6 +1,8 @@
 #include <array>
 #include <cmath>
+#include <spirv-tools/optimizer.hpp>
 
+#include "programs/front/light_program.h"
 #include "tests/catch.hpp"
 #include "tests/programs/run_program.h"
 
@@ -208,19 +210,48 @@ constexpr float kValues[] = {-3.25f, -1.0f, 0.0f, 0.75f, 1.0f, 2.5f, 5.0f};
 
 }  // namespace
 
+namespace {
+
+/// The module with functions inlined and variables as values, as other compilers write it; no arithmetic is changed.
+std::vector<uint32_t> without_variables(const std::vector<uint32_t>& words) {
+  spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_1);
+  optimizer.RegisterPass(spvtools::CreateMergeReturnPass())
+      .RegisterPass(spvtools::CreateInlineExhaustivePass())
+      .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass())
+      .RegisterPass(spvtools::CreatePrivateToLocalPass())
+      .RegisterPass(spvtools::CreateScalarReplacementPass())
+      .RegisterPass(spvtools::CreateSSARewritePass())
+      .RegisterPass(spvtools::CreateAggressiveDCEPass());
+  std::vector<uint32_t> out;
+  REQUIRE(optimizer.Run(words.data(), words.size(), &out));
+  return out;
+}
+
+void check_case(const Case& c, const Program& program) {
+  for (const float x : kValues)
+    for (const float y : kValues)
+      for (const float z : kValues) {
+        const std::vector<float> made =
+            light_of(program, {{"surface.position.x", x}, {"surface.position.y", y}, {"surface.position.z", z}});
+        const Floats wanted = c.wanted(x, y, z);
+        INFO(c.name << " at " << x << " " << y << " " << z);
+        for (size_t k = 0; k < 3; ++k)
+          REQUIRE((made[k] == wanted[k] || (std::isnan(made[k]) && std::isnan(wanted[k]))));
+      }
+}
+
+}  // namespace
+
 TEST_CASE("Branches, loops and functions do what they do in C++") {
+  for (const Case& c : kCases) check_case(c, program_of_light(std::string(kStart) + c.body, c.before));
+}
+
+TEST_CASE("SPIR-V whose variables are values and whose functions are inlined does the same") {
   for (const Case& c : kCases) {
-    const Program program = program_of_light(std::string(kStart) + c.body, c.before);
-    for (const float x : kValues)
-      for (const float y : kValues)
-        for (const float z : kValues) {
-          const std::vector<float> made =
-              light_of(program, {{"surface.position.x", x}, {"surface.position.y", y}, {"surface.position.z", z}});
-          const Floats wanted = c.wanted(x, y, z);
-          INFO(c.name << " at " << x << " " << y << " " << z);
-          for (size_t k = 0; k < 3; ++k)
-            REQUIRE((made[k] == wanted[k] || (std::isnan(made[k]) && std::isnan(wanted[k]))));
-        }
+    const std::string text = text_of_light(std::string(kStart) + c.body, c.before);
+    const std::vector<uint32_t> words = without_variables(compiled_light("a.glsl", text).words);
+    INFO(c.name);
+    check_case(c, program_from_spirv("a.spv", words));
   }
 }
 

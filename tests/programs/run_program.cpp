@@ -70,8 +70,12 @@ Numbers run_once(const Program& program, const Numbers& inputs) {
   return out;
 }
 
+std::string text_of_light(const std::string& body, const std::string& before) {
+  return before + "\nvec3 light(Surface s, Light l, View v) {\n" + body + "\n}\n";
+}
+
 Program program_of_light(const std::string& body, const std::string& before) {
-  return program_from_glsl("test.glsl", before + "\nvec3 light(Surface s, Light l, View v) {\n" + body + "\n}\n");
+  return program_from_glsl("test.glsl", text_of_light(body, before));
 }
 
 std::vector<float> light_of(const Program& program, const std::map<std::string, float>& inputs) {

@@ -14,7 +14,8 @@ Numbers run_once(const Program& program, const Numbers& inputs);
 float float_of(uint32_t bits);
 uint32_t bits_of(float x);
 
-/// A program whose light() is this GLSL, with the functions before it.
+/// GLSL whose light() is this, with the functions before it; and its program.
+std::string text_of_light(const std::string& body, const std::string& before = "");
 Program program_of_light(const std::string& body, const std::string& before = "");
 
 /// light() as three floats, from inputs given as floats.
