@@ -7,9 +7,37 @@ void Lowering::extended(const SpirvInstruction& one) {
   glsl_function(GlslFunction(one.word(3)), one);
 }
 
+namespace {
+
+/// The name of a function of GLSL.std.450 that is refused.
+std::string refused_name(uint32_t function) {
+  switch (function) {
+    case 59:
+      return "PackDouble2x32";
+    case 65:
+      return "UnpackDouble2x32";
+    case 76:
+      return "InterpolateAtCentroid";
+    case 77:
+      return "InterpolateAtSample";
+    case 78:
+      return "InterpolateAtOffset";
+    case 79:
+      return "NMin";
+    case 80:
+      return "NMax";
+    case 81:
+      return "NClamp";
+    default:
+      return "function " + std::to_string(function);
+  }
+}
+
+}  // namespace
+
 void Lowering::glsl_function(GlslFunction function, const SpirvInstruction& one) {
   if (elementwise_function(function, one) || vector_function(function, one) || packing_function(function, one)) return;
-  refuse("calls function " + std::to_string(uint32_t(function)) + " of GLSL.std.450, which a light program cannot have",
+  refuse("calls " + refused_name(uint32_t(function)) + " of GLSL.std.450, which a light program cannot have",
          "write it without");
 }
 

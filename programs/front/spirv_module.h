@@ -3,6 +3,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "core/error.h"
@@ -78,7 +79,7 @@ struct SpirvModule {
   std::vector<uint32_t> line;  ///< for each instruction, of the source; 0: not known
   uint32_t bound = 0;
   uint32_t entry_function = 0, glsl_functions = 0;  ///< ids
-  std::vector<SpirvType> types;                     ///< by id
+  std::unordered_map<uint32_t, SpirvType> types;    ///< by id
   std::vector<bool> precise;                        ///< by id: NoContraction
   std::map<uint32_t, std::string> names;
   std::map<uint32_t, std::map<uint32_t, std::string>> member_names;

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <utility>
+
 #include "programs/front/spirv_module.h"
 
 namespace trueshade::programs {
@@ -119,8 +122,8 @@ SpirvType type_of(const SpirvModule& m, const SpirvInstruction& one,
 void declare_type(SpirvModule& module, const SpirvInstruction& instruction,
                   const std::map<uint32_t, uint32_t>& integer_constants) {
   const uint32_t id = module.checked(instruction.word(0));
-  if (module.types[id].kind != Kind::none) refuse_damage("a type is declared twice");
-  module.types[id] = type_of(module, instruction, integer_constants);
+  SpirvType type = type_of(module, instruction, integer_constants);
+  if (!module.types.emplace(id, std::move(type)).second) refuse_damage("a type is declared twice");
 }
 
 }  // namespace trueshade::programs
