@@ -1,7 +1,7 @@
 #!/bin/bash
 # Fails on an #include that tests/include_arrows.txt does not allow, and on arrows that make a circle. Also holds libraries
 # to their places: OpenImageIO in core/image_files, Embree in oracle/ray_scene.h, epoxy in gl/driver, MPI in
-# farm/mpi.
+# farm/mpi, glslang in gl/vulkan and programs/front.
 # Usage: include_arrows.sh SOURCE_FOLDER
 set -euo pipefail
 cd "$1"
@@ -23,7 +23,7 @@ done <tests/include_arrows.txt
 while read -r folder included where; do
   [[ -v arrows[$folder] ]] || { fail "$folder has no row in tests/include_arrows.txt" "$where"; continue; }
   [[ ${arrows[$folder]} == *" $included "* ]] || fail "$folder may not include from $included" "$where"
-done < <(sources core farm scenes raster scene_cache shading bands oracle judge gl bench compare explain cli view | xargs grep -nE '^ *# *include "' |
+done < <(sources core farm scenes raster scene_cache shading bands programs oracle judge gl bench compare explain cli view | xargs grep -nE '^ *# *include "' |
   sed -nE 's|^(([^:]*)/[^/:]*:[0-9]+): *# *include "(([^"]*)/)?[^/"]*".*|\2 \4 \1|p')
 
 # unit FOLDER: the folder; of a `fast` or `bounded` folder that the folder above calls, the folder above.
@@ -38,12 +38,14 @@ done | tsort 2>&1 >/dev/null) || fail 'these folders include each other' "$circl
 # only_in PATTERN FILES: a library's headers are included by these files only.
 only_in() {
   local found
-  found=$(sources core farm scenes raster shading oracle judge gl compare explain cli view | xargs grep -nE "^ *# *include [<\"]$1" | grep -vE "^($2):" || true)
+  found=$(sources core farm scenes raster shading programs oracle judge gl compare explain cli view | xargs grep -nE "^ *# *include [<\"]$1" | grep -vE "^($2):" || true)
   [[ -z $found ]] || fail "$1 belongs in $2 only" "$found"
 }
 only_in 'OpenImageIO/' 'core/image_files/[a-z_]*.cpp'
 only_in 'embree' 'oracle/ray_scene.h'
 only_in 'mpi.h' 'farm/mpi/[a-z_]*\.(h|cpp)'
+only_in 'glslang/' '(gl/vulkan|programs/front)/[a-z_]*\.(h|cpp)'
+only_in 'spirv-tools/' 'programs/front/[a-z_]*\.(h|cpp)'
 only_in 'epoxy/' 'gl/driver/[a-z_]*\.(h|cpp)'
 
 # The oracle, the judge and the OpenGL twin judge our arithmetic, so they must not use it.

@@ -8,10 +8,15 @@ add_test(NAME "rules: preset names occur in the presets, the command and tests" 
 add_test(NAME "rules: every source is compiled without contraction and fast math"
          COMMAND ${rules}/compile_flags.sh ${PROJECT_BINARY_DIR}/compile_commands.json)
 find_program(TRUESHADE_OBJDUMP objdump REQUIRED)  # of binutils, whichever compiler is used: its spelling is what the script reads
+set(programs_library "")
+if(TARGET trueshade_programs)
+  set(programs_library $<TARGET_FILE:trueshade_programs>)
+endif()
 add_test(NAME "rules: the kernels hold no fused or estimating instruction"
          COMMAND ${rules}/instructions.sh ${TRUESHADE_OBJDUMP} $<TARGET_FILE:trueshade_core> $<TARGET_FILE:trueshade_scene_values>
                  $<TARGET_FILE:trueshade_scenes>
-                 $<TARGET_FILE:trueshade_raster> $<TARGET_FILE:trueshade_shading>)
+                 $<TARGET_FILE:trueshade_raster> $<TARGET_FILE:trueshade_shading>
+                 ${programs_library})
 add_test(NAME "install: a program finds, links and runs the installed library"
          COMMAND ${rules}/consumer/run.sh ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR} ${CMAKE_CXX_COMPILER} "${CMAKE_CXX_FLAGS}")
 add_test(NAME "rules: the picture is built without the packages of the whole command"

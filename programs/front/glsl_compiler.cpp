@@ -1,0 +1,120 @@
+#include "programs/front/glsl_compiler.h"
+
+#include <glslang/Public/ResourceLimits.h>
+#include <glslang/Public/ShaderLang.h>
+#include <glslang/SPIRV/GlslangToSpv.h>
+#include <glslang/build_info.h>
+
+#include <cstdlib>
+#include <optional>
+#include <string_view>
+
+#include "core/error.h"
+#include "core/printable_text.h"
+#include "programs/front/light_interface_text.h"
+
+namespace trueshade::programs {
+namespace {
+
+/// glslang for the length of the process.
+struct GlslangProcess {
+  GlslangProcess() { glslang::InitializeProcess(); }
+  ~GlslangProcess() { glslang::FinalizeProcess(); }
+  GlslangProcess(const GlslangProcess&) = delete;
+  GlslangProcess& operator=(const GlslangProcess&) = delete;
+};
+
+/// What a line of glslang's log says: `ERROR: TEXT:LINE: message`, and of newer versions `ERROR: TEXT:LINE:COLUMN:
+/// ...`.
+struct GlslError {
+  int text = -1, line = 0, column = 0;  ///< text: 0 the user's, 1 the tail
+  std::string message;
+};
+
+std::optional<GlslError> error_in(std::string_view log_line) {
+  constexpr std::string_view kStart = "ERROR: ";
+  if (!log_line.starts_with(kStart)) return std::nullopt;
+  log_line.remove_prefix(kStart.size());
+  GlslError out;
+  for (int* const number : {&out.text, &out.line, &out.column}) {
+    const size_t digits = log_line.find_first_not_of("0123456789");
+    if (digits == 0 || digits > 9 || digits == std::string_view::npos || log_line[digits] != ':') break;
+    *number = std::atoi(std::string(log_line.substr(0, digits)).c_str());
+    log_line.remove_prefix(digits + 1);
+  }
+  while (log_line.starts_with(' ')) log_line.remove_prefix(1);
+  out.message = printable(log_line, Lines::one);
+  while (out.message.ends_with(' ')) out.message.pop_back();
+  return out;
+}
+
+/// Older versions tell no column: it is found where the text that they quote stands once in its line.
+int column_of(const std::string& text, const GlslError& error) {
+  if (error.column > 0) return error.column;
+  const size_t end = error.message.find('\'', 1);
+  if (!error.message.starts_with('\'') || end == std::string::npos || end == 1) return 0;
+  const std::string quoted = error.message.substr(1, end - 1);
+  size_t first = 0;
+  for (int line = 1; line < error.line && first != std::string::npos; ++line) {
+    first = text.find('\n', first);
+    if (first != std::string::npos) ++first;
+  }
+  if (first == std::string::npos) return 0;
+  const std::string_view line = std::string_view(text).substr(first, text.find('\n', first) - first);
+  const size_t at = line.find(quoted);
+  return at == std::string_view::npos || line.find(quoted, at + 1) != std::string_view::npos ? 0 : int(at) + 1;
+}
+
+[[noreturn]] void throw_first(const std::string& file, const std::string& text, const std::string& log) {
+  for (size_t first = 0; first < log.size();) {
+    const size_t end = std::min(log.find('\n', first), log.size());
+    const std::optional<GlslError> error = error_in(std::string_view(log).substr(first, end - first));
+    first = end + 1;
+    if (!error) continue;
+    std::string where = file;
+    if (error->text == 0 && error->line > 0) {
+      where += ":" + std::to_string(error->line);
+      if (const int column = column_of(text, *error); column > 0) where += ":" + std::to_string(column);
+    }
+    if (error->text == 1)
+      throw Error(ErrorKind::bad_input, where, "clashes with the entry point: " + error->message,
+                  "leave no brace or comment open, and define neither main nor names with ts_");
+    throw Error(ErrorKind::bad_input, where, error->message, "correct the GLSL");
+  }
+  throw Error(ErrorKind::bad_input, file, "is not GLSL that glslang compiles", "correct the GLSL");
+}
+
+}  // namespace
+
+std::vector<uint32_t> spirv_of_glsl(const std::string& file, const std::string& text, const std::string& tail,
+                                    bool keep_uncalled) {
+  static const GlslangProcess process;
+  constexpr int kVersion = 460;
+  auto messages = EShMessages(EShMsgSpvRules | EShMsgVulkanRules);
+  if (keep_uncalled) messages = EShMessages(messages | EShMsgKeepUncalled);
+#if GLSLANG_VERSION_GREATER_OR_EQUAL_TO(15, 0, 0)
+  messages = EShMessages(messages | EShMsgDisplayErrorColumn);
+#endif
+  const std::string ended = text + "\n";  // a last line without an end would run into the tail
+  const char* const texts[] = {ended.c_str(), tail.c_str()};
+  const int lengths[] = {int(ended.size()), int(tail.size())};
+  glslang::TShader shader(EShLangCompute);
+  shader.setStringsWithLengths(texts, lengths, 2);
+  shader.setPreamble(kLightInterface);
+  shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, glslang::EShClientVulkan, 100);
+  shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
+  shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
+  shader.setAutoMapBindings(true);
+  if (!shader.parse(GetDefaultResources(), kVersion, false, messages)) throw_first(file, text, shader.getInfoLog());
+  glslang::TProgram program;
+  program.addShader(&shader);
+  if (!program.link(messages) || !program.mapIO()) throw_first(file, text, program.getInfoLog());
+  glslang::SpvOptions options;
+  options.generateDebugInfo = true;
+  options.disableOptimizer = true;
+  std::vector<uint32_t> words;
+  glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), words, &options);
+  return words;
+}
+
+}  // namespace trueshade::programs

@@ -1,0 +1,142 @@
+#include "programs/run/execution.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+namespace trueshade::programs {
+namespace {
+
+/// What the operands of a batch lie in.
+struct BatchPlaces {
+  const float* constants;
+  const float* const* planes;
+  const float* const* lights;
+};
+
+/// Where the blocks of a batch are.
+struct BatchBlocks {
+  uint32_t plane_lane[kBatchBlocks] = {};
+  uint32_t light[kBatchBlocks] = {};
+  size_t count = 0;
+
+  BatchBlocks() = default;
+  BatchBlocks(size_t first_lane, size_t lanes) : count(std::min(kBatchBlocks, (lanes - first_lane) / kBlockLanes)) {
+    for (size_t k = 0; k < count; ++k) plane_lane[k] = uint32_t(first_lane + k * kBlockLanes);
+  }
+};
+
+void run_batch(const Stage& stage, const BatchPlaces& places, const BatchBlocks& blocks, Registers& registers) {
+  run_code({stage.code.data(), stage.code.size(), registers.data(), places.planes, places.constants, places.lights,
+            blocks.plane_lane, blocks.light, blocks.count});
+}
+
+/// Copies a value of the lanes of a batch from where it lies.
+void copy_value(Source from, const BatchPlaces& places, const BatchBlocks& blocks, Registers& registers, float* to) {
+  const Instruction one{Op::input, 0, {from, {}, {}}};
+  if (from.place == Place::lanes) {
+    std::memcpy(to, registers.data() + from.slot * kBatchLanes, blocks.count * sizeof(LaneBlock));
+    return;
+  }
+  run_code(
+      {&one, 1, to, places.planes, places.constants, places.lights, blocks.plane_lane, blocks.light, blocks.count});
+}
+
+/// A stage whose lanes lie side by side, and where its kept values go.
+void run_side_by_side(const Stage& stage, const BatchPlaces& places, LaneValues& values, Registers& registers) {
+  for (size_t first = 0; first < values.lanes(); first += kBatchLanes) {
+    const BatchBlocks blocks(first, values.lanes());
+    run_batch(stage, places, blocks, registers);
+    for (size_t i = 0; i < stage.kept.size(); ++i)
+      copy_value(stage.kept_from[i], places, blocks, registers, values.kept(i) + first);
+  }
+}
+
+/// Where an output lies for a stage that runs after its own.
+Source place_of_output(const Executable& executable, int output, Rate rate) {
+  const OutputPlace& at = executable.output[size_t(output)];
+  if (at.rate == Rate::constant) return {Place::constant, at.value};
+  if (at.rate == rate && at.value >= executable.at(rate).inputs.size() && rate != Rate::surface)
+    return executable.at(rate).kept_from[at.value - executable.at(rate).inputs.size()];
+  if (at.rate == Rate::light) return {Place::light, at.value};
+  return {Place::plane, at.value + (at.rate == Rate::sum ? uint32_t(executable.at(Rate::surface).values()) : 0)};
+}
+
+}  // namespace
+
+LaneValues::LaneValues(const Stage& stage, size_t lanes)
+    : lanes_((lanes + kBlockLanes - 1) / kBlockLanes * kBlockLanes),
+      blocks_(stage.kept.size() * (lanes_ / kBlockLanes)),
+      plane_(stage.values(), nullptr) {
+  for (size_t i = 0; i < stage.kept.size(); ++i) plane_[stage.inputs.size() + i] = kept(i);
+}
+
+ConstantValues::ConstantValues(const Executable& executable) : value_(executable.at(Rate::constant).values()) {
+  const Stage& stage = executable.at(Rate::constant);
+  for (size_t i = 0; i < stage.kept.size(); ++i) {
+    const ProgramNode& node = executable.program.nodes[stage.kept[i]];
+    if (node.op == Op::constant) set_input(stage.inputs.size() + i, register_word(node.type, node.bits));
+  }
+}
+
+void ConstantValues::set_input(size_t input, uint32_t bits) { std::memcpy(&value_[input], &bits, sizeof(bits)); }
+
+void run_constants(const Executable& executable, ConstantValues& constants, Registers& registers) {
+  const Stage& stage = executable.at(Rate::constant);
+  const BatchPlaces places{constants.data(), nullptr, nullptr};
+  const BatchBlocks blocks(0, kBlockLanes);
+  run_batch(stage, places, blocks, registers);
+  for (size_t i = 0; i < stage.kept.size(); ++i)
+    if (stage.kept_from[i].place == Place::lanes)
+      constants.data()[stage.inputs.size() + i] = registers.data()[stage.kept_from[i].slot * kBatchLanes];
+}
+
+void run_lights(const Executable& executable, const ConstantValues& constants, LaneValues& lights,
+                Registers& registers) {
+  run_side_by_side(executable.at(Rate::light), {constants.data(), lights.planes(), nullptr}, lights, registers);
+}
+
+void run_surfaces(const Executable& executable, const ConstantValues& constants, LaneValues& surfaces,
+                  float* const* start, Registers& registers) {
+  const BatchPlaces places{constants.data(), surfaces.planes(), nullptr};
+  run_side_by_side(executable.at(Rate::surface), places, surfaces, registers);
+  if (start == nullptr) return;
+  for (size_t first = 0; first < surfaces.lanes(); first += kBatchLanes)
+    for (int c = 0; c < 3; ++c)
+      copy_value(place_of_output(executable, kStartOutput + c, Rate::surface), places,
+                 BatchBlocks(first, surfaces.lanes()), registers, start[c] + first);
+}
+
+PairResults run_pairs(const Executable& executable, const ConstantValues& constants, const LaneValues& lights,
+                      const LaneValues& surfaces, std::span<const PairBlock> pairs, Registers& registers) {
+  const BatchPlaces places{constants.data(), surfaces.planes(), lights.planes()};
+  BatchBlocks blocks;
+  blocks.count = pairs.size();
+  for (size_t k = 0; k < pairs.size(); ++k)
+    blocks.plane_lane[k] = pairs[k].first_pixel, blocks.light[k] = pairs[k].light;
+  run_batch(executable.at(Rate::pair), places, blocks, registers);
+  const float* lanes[kStartOutput];
+  for (int i = 0; i < kStartOutput; ++i) {
+    const Source from = place_of_output(executable, i, Rate::pair);
+    lanes[i] = from.place == Place::lanes ? registers.data() + from.slot * kBatchLanes : registers.output(i);
+    if (from.place != Place::lanes) copy_value(from, places, blocks, registers, registers.output(i));
+  }
+  return {{lanes[0], lanes[1], lanes[2]}, lanes[kReachesOutput]};
+}
+
+void run_finish(const Executable& executable, const ConstantValues& constants, const LaneValues& surfaces,
+                const float* const sum[3], float* const finish[4], Registers& registers) {
+  const Stage& stage = executable.at(Rate::sum);
+  std::vector<const float*> planes(surfaces.planes(), surfaces.planes() + executable.at(Rate::surface).values());
+  for (const uint32_t input : stage.inputs) planes.push_back(sum[executable.program.inputs[input].name.back() - 'x']);
+  const BatchPlaces places{constants.data(), planes.data(), nullptr};
+  for (size_t first = 0; first < surfaces.lanes(); first += kBatchLanes) {
+    const BatchBlocks blocks(first, surfaces.lanes());
+    run_batch(stage, places, blocks, registers);
+    for (int c = 0; c < 4; ++c)
+      copy_value(place_of_output(executable, kFinishOutput + c, Rate::sum), places, blocks, registers,
+                 finish[c] + first);
+  }
+}
+
+}  // namespace trueshade::programs

@@ -1,0 +1,95 @@
+#include "programs/values/op.h"
+
+#include <array>
+#include <cstddef>
+
+namespace trueshade::programs {
+namespace {
+
+constexpr Type kF = Type::f32, kI = Type::i32, kU = Type::u32, kB = Type::boolean;
+
+constexpr std::array<OpInfo, kOpCount> kOps = {{
+    {"constant", kF, 0, {}},
+    {"input", kF, 0, {}},
+    {"add", kF, 2, {kF, kF}},
+    {"sub", kF, 2, {kF, kF}},
+    {"mul", kF, 2, {kF, kF}},
+    {"div", kF, 2, {kF, kF}},
+    {"sqrt", kF, 1, {kF}},
+    {"fma", kF, 3, {kF, kF, kF}},
+    {"floor", kF, 1, {kF}},
+    {"ceil", kF, 1, {kF}},
+    {"trunc", kF, 1, {kF}},
+    {"round_even", kF, 1, {kF}},
+    {"float_of_int", kF, 1, {kI}},
+    {"float_of_uint", kF, 1, {kU}},
+    {"neg", kF, 1, {kF}},
+    {"abs", kF, 1, {kF}},
+    {"min", kF, 2, {kF, kF}},
+    {"max", kF, 2, {kF, kF}},
+    {"equal", kB, 2, {kF, kF}},
+    {"not_equal", kB, 2, {kF, kF}},
+    {"less", kB, 2, {kF, kF}},
+    {"less_equal", kB, 2, {kF, kF}},
+    {"int_of_float", kI, 1, {kF}},
+    {"uint_of_float", kU, 1, {kF}},
+    {"bits_of_float", kI, 1, {kF}},
+    {"float_of_bits", kF, 1, {kI}},
+    {"significand", kF, 1, {kF}},
+    {"exponent", kI, 1, {kF}},
+    {"half_of_float", kU, 1, {kF}},
+    {"float_of_half", kF, 1, {kU}},
+    {"select", kF, 3, {kB, kF, kF}},
+    {"and", kB, 2, {kB, kB}},
+    {"or", kB, 2, {kB, kB}},
+    {"xor", kB, 2, {kB, kB}},
+    {"not", kB, 1, {kB}},
+    {"int_add", kI, 2, {kI, kI}},
+    {"int_sub", kI, 2, {kI, kI}},
+    {"int_mul", kI, 2, {kI, kI}},
+    {"int_mul_high", kI, 2, {kI, kI}},
+    {"uint_mul_high", kU, 2, {kU, kU}},
+    {"int_div", kI, 2, {kI, kI}},
+    {"uint_div", kU, 2, {kU, kU}},
+    {"int_rem", kI, 2, {kI, kI}},
+    {"uint_rem", kU, 2, {kU, kU}},
+    {"bit_and", kI, 2, {kI, kI}},
+    {"bit_or", kI, 2, {kI, kI}},
+    {"bit_xor", kI, 2, {kI, kI}},
+    {"bit_not", kI, 1, {kI}},
+    {"shift_left", kI, 2, {kI, kI}},
+    {"int_shift_right", kI, 2, {kI, kI}},
+    {"uint_shift_right", kU, 2, {kU, kU}},
+    {"int_equal", kB, 2, {kI, kI}},
+    {"int_less", kB, 2, {kI, kI}},
+    {"uint_less", kB, 2, {kU, kU}},
+    {"bit_count", kI, 1, {kI}},
+    {"bit_reverse", kI, 1, {kI}},
+    {"lowest_bit", kI, 1, {kI}},
+    {"highest_bit", kI, 1, {kU}},
+    {"ldexp", kF, 2, {kF, kI}},
+    {"exp", kF, 1, {kF}},
+    {"exp2", kF, 1, {kF}},
+    {"log", kF, 1, {kF}},
+    {"log2", kF, 1, {kF}},
+    {"pow", kF, 2, {kF, kF}},
+    {"sin", kF, 1, {kF}},
+    {"cos", kF, 1, {kF}},
+    {"tan", kF, 1, {kF}},
+    {"asin", kF, 1, {kF}},
+    {"acos", kF, 1, {kF}},
+    {"atan", kF, 1, {kF}},
+    {"atan2", kF, 2, {kF, kF}},
+    {"sinh", kF, 1, {kF}},
+    {"cosh", kF, 1, {kF}},
+    {"tanh", kF, 1, {kF}},
+    {"asinh", kF, 1, {kF}},
+    {"acosh", kF, 1, {kF}},
+    {"atanh", kF, 1, {kF}},
+}};
+
+}  // namespace
+
+const OpInfo& info(Op op) { return kOps[size_t(op)]; }
+
+}  // namespace trueshade::programs
