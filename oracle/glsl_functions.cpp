@@ -164,6 +164,7 @@ uint32_t half_bits(float x) {
   if (std::isnan(x)) return 0x7E00;
   const uint32_t sign = std::signbit(x) ? 0x8000 : 0;
   const double a = std::fabs(double(x));
+  if (a == 0) return sign;
   if (a >= 65520) return sign | 0x7C00;
   // Below 2^-14 a half counts steps of 2^-24; from there on its bits grow by one a step, whatever the exponent.
   int e = 0;
