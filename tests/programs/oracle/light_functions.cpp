@@ -82,9 +82,10 @@ constexpr OfOne kOfOne[] = {
 
 /// Floats where a formula changes or loses digits, each with its neighbours: `around` on either side, both signs.
 std::vector<float> edges(uint32_t around) {
-  std::vector<float> centres = {0x1p-126f, 0x1p-28f, 0x1p-12f, 0x1p-10f, 0x1p-8f, 0x1p-4f, 0.25f, 0.5f, 0.70710678f,
-                                1.0f, 1.41421356f, 2.0f, 20.0f, 64.0f, 87.33654f, 88.72284f, 89.41599f, 103.97208f,
-                                126.0f, 127.0f, 128.0f, 149.0f, 150.0f, 1e6f, 0x1p24f, 0x1.fffffep127f};
+  std::vector<float> centres = {0x1p-126f, 0x1p-28f,    0x1p-12f,  0x1p-10f,    0x1p-8f,        0x1p-4f, 0.25f,
+                                0.5f,      0.70710678f, 1.0f,      1.41421356f, 2.0f,           20.0f,   64.0f,
+                                87.33654f, 88.72284f,   89.41599f, 103.97208f,  126.0f,         127.0f,  128.0f,
+                                149.0f,    150.0f,      1e6f,      0x1p24f,     0x1.fffffep127f};
   // Multiples of pi/4, where sines and tangents come near to 0, 1 and infinity, up to 10^6.
   for (uint32_t n = 1; n < 1273239; n += n < 64 ? 1 : n / 7) centres.push_back(float(n * 0.7853981633974483));
   std::vector<float> all;
