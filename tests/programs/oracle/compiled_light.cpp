@@ -85,7 +85,7 @@ std::runtime_error refused(const std::string& who, const std::string& log, const
 
 void validate(const std::vector<uint32_t>& words, const std::string& shader) {
   const std::unique_ptr<spv_context_t, Freeing<spvContextDestroy>> context(spvContextCreate(SPV_ENV_VULKAN_1_1));
-  const spv_const_binary_t binary{words.data(), words.size()};
+  spv_const_binary_t binary{words.data(), words.size()};
   spv_diagnostic diagnostic = nullptr;
   const spv_result_t result = spvValidate(context.get(), &binary, &diagnostic);
   const std::string said = diagnostic != nullptr ? diagnostic->error : "";
