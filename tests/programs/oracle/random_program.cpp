@@ -9,6 +9,7 @@ namespace trueshade::testing {
 
 namespace {
 
+const char* kQ = std::getenv("PRECISE") ? "precise " : "";
 constexpr GlslType kFloat{'f', 1, 1}, kInt{'i', 1, 1}, kBool{'b', 1, 1}, kVec3{'f', 1, 3}, kVec4{'f', 1, 4};
 
 struct Structure {
@@ -277,7 +278,7 @@ class Writer {
       line(type.name() + " " + made + "[" + std::to_string(elements) + "] = " + array_of(type, elements) + ";");
       return declare(made, type, true, elements);
     }
-    const std::string qualifier = make_.one_in(12) ? "precise " : "";
+    const std::string qualifier = make_.one_in(12) ? kQ : "";
     line(qualifier + type.name() + " " + made + (make_.one_in(40) ? ";" : " = " + expression(type) + ";"));
     declare(made, type, true);
   }
@@ -410,9 +411,9 @@ class Writer {
     const uint32_t cases = 1 + below(4), without_default = below(2), first = below(2);
     for (uint32_t i = 0; i < cases; ++i) {
       line("case " + std::to_string(first + i) + (base == 'u' ? "u:" : ":"));
-      part_of_choice(nesting, make_.one_in(4) ? "" : "break;");
+      part_of_choice(nesting, i + 1 < cases && make_.one_in(4) ? "" : "break;");
       if (i + 1 == cases && without_default != 0) break;
-      if (i + 1 == cases) line("default:"), part_of_choice(nesting, "");
+      if (i + 1 == cases) line("default:"), part_of_choice(nesting, "break;");
     }
     close();
   }
