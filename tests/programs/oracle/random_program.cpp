@@ -9,7 +9,6 @@ namespace trueshade::testing {
 
 namespace {
 
-const char* kQ = std::getenv("PRECISE") ? "precise " : "";
 constexpr GlslType kFloat{'f', 1, 1}, kInt{'i', 1, 1}, kBool{'b', 1, 1}, kVec3{'f', 1, 3}, kVec4{'f', 1, 4};
 
 struct Structure {
@@ -278,8 +277,7 @@ class Writer {
       line(type.name() + " " + made + "[" + std::to_string(elements) + "] = " + array_of(type, elements) + ";");
       return declare(made, type, true, elements);
     }
-    const std::string qualifier = make_.one_in(12) ? kQ : "";
-    line(qualifier + type.name() + " " + made + (make_.one_in(40) ? ";" : " = " + expression(type) + ";"));
+    line(type.name() + " " + made + (make_.one_in(40) ? ";" : " = " + expression(type) + ";"));
     declare(made, type, true);
   }
 
