@@ -26,6 +26,8 @@ class Writer {
     RandomProgram made;
     constants();
     if (make_.one_in(4)) parameters(made);
+    if ((mark_of_file_ = make_.one_in(2))) line("uint mark = 2166136261u;");
+    marked_ = mark_of_file_;
     for (uint32_t count = below(3); count > 0; --count) structure();
     for (uint32_t count = below(4); count > 0; --count) helper();
     entry("light", kVec3, {{"s", 'S'}, {"l", 'L'}, {"v", 'V'}});
@@ -43,7 +45,7 @@ class Writer {
   std::string name(const char* prefix) { return prefix + std::to_string(++names_); }
   std::string expression(const GlslType& type) { return make_.expression(type, 1 + int(below(uint32_t(depth_)))); }
   void line(const std::string& text) { text_ += std::string(size_t(indent_) * 2, ' ') + text + "\n"; }
-  void open(const std::string& text) { line(text + " {"), ++indent_; }
+  void open(const std::string& text) { line(text.empty() ? "{" : text + " {"), ++indent_; }
   void close(const std::string& after = "") { --indent_, line("}" + after); }
 
   /// What is declared until this ends is out of scope afterwards.
@@ -208,11 +210,38 @@ class Writer {
     open(head + ")");
     result_ = result;
     own_integer();
+    if (!mark_of_file_) line("uint mark = 2166136261u;");
+    marked_ = true;
     const bool main_one = function == "light";
     if (main_one && make_.one_in(2)) surface_terms();
     statements(main_one ? 2 + below(10) : below(3), 0);
-    line("return " + returned() + ";");
+    if (main_one && !make_.one_in(4))
+      line("return vec3(float(mark >> 9), (" + returned() + ").xy);");
+    else
+      line("return " + returned() + ";");
     close();
+    marked_ = mark_of_file_;
+  }
+
+  /// A scalar of a variable.
+  std::string scalar_of(const GlslVariable& variable) {
+    std::string part = variable.path;
+    if (variable.elements > 0) part += "[" + make_.index(variable.elements) + "]";
+    if (variable.type.columns > 1) part += "[" + make_.index(variable.type.columns) + "]";
+    if (variable.type.rows > 1) part += "[" + make_.index(variable.type.rows) + "]";
+    return part;
+  }
+
+  GlslVariable late_variable() {
+    return make_.scope[make_.scope.size() - 1 - below(uint32_t(std::min<size_t>(make_.scope.size(), 12)))];
+  }
+
+  /// The bits of a late variable go into a mark, so that no result is lost on the way to the pixel.
+  void mark() {
+    if (!marked_ || make_.scope.empty()) return;
+    const GlslVariable variable = late_variable();
+    const std::string bits = (variable.type.base == 'f' ? "floatBitsToUint(" : "uint(") + scalar_of(variable) + ")";
+    line("mark = (mark ^ " + bits + ") * 16777619u;");
   }
 
   /// What nearly every light has, so that more than noise goes through what follows.
@@ -233,12 +262,8 @@ class Writer {
       text += i > 0 ? ", " : "";
       for (int term = 0; term < 3; ++term) {
         if (term > 0) text += make_.one_in(4) ? " * " : " + ";
-        const GlslVariable variable =
-            make_.scope[make_.scope.size() - 1 - below(uint32_t(std::min<size_t>(make_.scope.size(), 12)))];
-        std::string part = variable.path;
-        if (variable.elements > 0) part += "[" + make_.index(variable.elements) + "]";
-        if (variable.type.columns > 1) part += "[" + make_.index(variable.type.columns) + "]";
-        if (variable.type.rows > 1) part += "[" + make_.index(variable.type.rows) + "]";
+        const GlslVariable variable = late_variable();
+        std::string part = scalar_of(variable);
         if (variable.type.base == 'i') part = "(" + part + " & 1023)";
         if (variable.type.base == 'u') part = "(" + part + " % 1021u)";
         if (variable.type.base != 'f') part = "float(" + part + ")";
@@ -250,7 +275,10 @@ class Writer {
 
   void statements(uint32_t count, int nesting) {
     Block block(*this);
-    for (; count > 0 && make_.cost < make_.most_cost; --count) statement(nesting);
+    for (; count > 0 && make_.cost < make_.most_cost; --count) {
+      statement(nesting);
+      if (make_.one_in(2)) mark();
+    }
   }
 
   void statement(int nesting) {
@@ -459,7 +487,7 @@ class Writer {
   RandomExpressions make_;
   std::string text_;
   int names_ = 0, indent_ = 0, depth_ = 3;
-  bool in_loop_ = false;
+  bool in_loop_ = false, mark_of_file_ = false, marked_ = false;
   GlslType result_ = kVec3;
   std::vector<Structure> structures_;
   std::vector<std::pair<std::string, size_t>> structs_in_scope_;  ///< variables of structures_[second]
