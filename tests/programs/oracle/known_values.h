@@ -12,10 +12,10 @@ namespace trueshade::testing {
 /// integers i, j, k of the bits of a, b, c.
 struct KnownValue {
   const char* expression;
-  char type;                        ///< of the expression: f, i, u or b
-  std::vector<float> floats;        ///< of X, Y, Z in this order; what is left out is 0
-  std::vector<uint32_t> integers;   ///< a, b, c, d
-  uint32_t expected;                ///< bits; any NaN for a NaN; a boolean is 0 or 1
+  char type;                       ///< of the expression: f, i, u or b
+  std::vector<float> floats;       ///< of X, Y, Z in this order; what is left out is 0
+  std::vector<uint32_t> integers;  ///< a, b, c, d
+  uint32_t expected;               ///< bits; any NaN for a NaN; a boolean is 0 or 1
 };
 
 std::span<const KnownValue> known_values();

@@ -33,7 +33,8 @@ TEST_CASE("functions and operators of light programs are worth what the contract
     const std::vector<uint32_t> words = compiled_shader(whole_shader(program_of(value), false, false, false));
     const std::vector<uint32_t> light = run_spirv(oracle::spirv_module(words), inputs_of(value)).at("TsResult.light");
     const uint32_t found = value.type == 'f' ? light[0] : uint32_t(real(light[1])) << 16 | uint32_t(real(light[2]));
-    INFO(value.expression << " of " << ::Catch::Detail::stringify(value.floats) << ::Catch::Detail::stringify(value.integers));
+    INFO(value.expression << " of " << ::Catch::Detail::stringify(value.floats)
+                          << ::Catch::Detail::stringify(value.integers));
     INFO("as floats: " << real(found) << ", not " << real(value.expected));
     CAPTURE(found, value.expected);
     const bool both_nan = value.type == 'f' && std::isnan(real(found)) && std::isnan(real(value.expected));
