@@ -256,8 +256,8 @@ void vectors(Values& all) {
 std::span<const KnownValue> known_values() {
   static const Values all = [] {
     Values made;
-    one_rounding(made), conversions(made), comparisons(made), vectors(made), integers(made), parts(made),
-        functions(made);
+    one_rounding(made), conversions(made), comparisons(made), vectors(made), add_integers(made), add_parts(made),
+        add_functions(made);
     return made;
   }();
   return all;

@@ -63,10 +63,6 @@ void run_programs(uint64_t from, uint64_t to, Seen& seen) {
 
 }  // namespace
 
-TEST_CASE("random light programs print", "[.print]") {
-  for (uint64_t seed = 0; seed < 5; ++seed) std::printf("%s\n//////\n", random_program(seed).text.c_str());
-}
-
 TEST_CASE("random light programs compile, are valid and run in the oracle", "[slow]") {
   Seen seen;
   const char* count = std::getenv("COUNT");
@@ -79,26 +75,4 @@ TEST_CASE("random light programs compile, are valid and run in the oracle", "[sl
   std::printf("\n");
   for (auto f : seen.functions) std::printf("%u ", f);
   std::printf("\n");
-}
-
-TEST_CASE("errors list", "[.errors]") {
-  std::map<std::string, int> said;
-  for (uint64_t seed = 0; seed < 1000; ++seed) {
-    try {
-      if (std::getenv("VERBOSE")) std::printf("%llu\n", (unsigned long long)seed), std::fflush(stdout);
-      Seen seen;
-      run_programs(seed, seed + 1, seen);
-    } catch (const std::exception& e) {
-      std::string text = e.what();
-      text = text.substr(0, text.find('\n'));
-      std::string shape;
-      for (char c : text) shape += c >= '0' && c <= '9' ? '#' : c;
-      if (said[shape]++ == 0) std::printf("%llu: %s\n", (unsigned long long)seed, text.c_str());
-    }
-  }
-  for (auto& [text, count] : said) std::printf("%d x %s\n", count, text.c_str());
-}
-TEST_CASE("one", "[.one]") {
-  const RandomProgram p = random_program(std::strtoull(std::getenv("SEED"), nullptr, 10));
-  std::printf("%s", whole_shader(p.text, p.has_reaches, p.has_start, p.has_finish).c_str());
 }
