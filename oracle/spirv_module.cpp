@@ -239,6 +239,7 @@ SpirvModule spirv_module(std::span<const uint32_t> words) {
       function->body.push_back(i);
     }
   }
+  if (function != nullptr) throw unknown("the module ends within a function");
   if (module.entry_point == 0) throw unknown("the module has no entry point");
   return module;
 }

@@ -235,7 +235,9 @@ TEST_CASE("the oracle's interpreter refuses words that are no module and inputs 
   CHECK_THROWS_AS(spirv_module(std::vector<uint32_t>{}), std::runtime_error);
   CHECK_THROWS_AS(spirv_module(std::vector<uint32_t>(9, 0)), std::runtime_error);
   std::vector<uint32_t> words = assembled(module_text("%float", "%r = OpFAdd %float %x %x"));
-  CHECK_THROWS_AS(spirv_module(std::span(words).first(words.size() - 1)), std::runtime_error);
+  // Without OpFunctionEnd, and in the middle of the OpStore before OpReturn.
+  CHECK_THROWS_WITH(spirv_module(std::span(words).first(words.size() - 1)), Catch::Contains("within a function"));
+  CHECK_THROWS_WITH(spirv_module(std::span(words).first(words.size() - 3)), Catch::Contains("length is wrong"));
   const SpirvModule module = spirv_module(words);
   const SpirvScalars all{{"In.x", {bits(3)}}, {"In.i", {0}}, {"In.u", {0}}, {"In.v", {0, 0, 0, 0}}, {"Other.z", {5}}};
   CHECK(run_spirv(module, all).at("Out.r") == std::vector<uint32_t>{bits(6)});
