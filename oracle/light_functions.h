@@ -1,7 +1,7 @@
 #pragma once
 
-/// The functions of light programs that are computed in f64 and rounded once (docs/arithmetic.md section 17), written
-/// a second time: libm has no part but sqrt, rounding, frexp and ldexp, whose results are exact or IEEE's.
+/// The functions of light programs that are computed in f64 and rounded once (docs/arithmetic.md sections 1 and 9),
+/// written a second time: libm has no part but sqrt, rounding, frexp and ldexp, whose results are exact or IEEE's.
 namespace trueshade::oracle::glsl {
 
 /// Base 2, of a float: NaN below 0, -infinity of 0; and of a positive f64 as section 9 has it.

@@ -17,7 +17,7 @@ using SpirvScalars = std::map<std::string, std::vector<uint32_t>>;
 ///   inputs:  of every member of every uniform block. Names that the module lacks are ignored.
 /// Returns what the members of storage blocks hold at the end ("TsResult.light"). The members of a storage block start
 /// as the inputs have them, or else as 0.
-/// Exact: docs/arithmetic.md section 17, operation by operation; the bits of a NaN are those of the machine, but bit
+/// Exact: the arithmetic of light programs, operation by operation; the bits of a NaN are those of the machine, but bit
 /// casts from float to an integer and packHalf2x16 make one NaN of all.
 /// Throws std::runtime_error for what it does not know, for an input that is missing or of another length, and after
 /// `most_steps` instructions.
