@@ -24,4 +24,20 @@ std::span<const KnownValue> known_values();
 /// `s.user[0]` to `s.user[2]` hold the floats, `s.object`, `s.material`, `s.pixel_x`, `s.pixel_y` the integers.
 std::string program_of(const KnownValue& value);
 
+/// What the body of `float f(Surface s, int n, float x)` returns, worked out by hand, for s.object = n and s.shininess
+/// = x; all other inputs are 0.
+struct KnownBody {
+  const char* body;
+  uint32_t n;
+  float x, expected;
+  const char* before = "";  ///< stands in front of the function
+  bool bounded = true;      ///< every loop has an end that does not depend on n and x
+};
+
+/// Branches, loops, calls and memory.
+std::span<const KnownBody> known_bodies();
+
+/// A light program whose light is the body's value.
+std::string program_of(const KnownBody& value);
+
 }  // namespace trueshade::testing
