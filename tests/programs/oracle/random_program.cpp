@@ -157,13 +157,26 @@ class RandomFile : RandomStatements {
     marked_ = true;
     const bool main_one = function == "light";
     if (main_one && make_.one_in(2)) surface_terms();
-    statements(main_one ? 2 + below(10) : below(3), 0);
+    if (main_one && make_.one_in(4))
+      applications();
+    else
+      statements(main_one ? 2 + below(10) : below(3), 0);
     if (main_one && !make_.one_in(4))
       line("return vec3(float(mark >> 9), (" + returned() + ").xy);");
     else
       line("return " + returned() + ";");
     close();
     marked_ = mark_of_file_;
+  }
+
+  /// One operation after the other, mostly of what the program reads, each marked: more of them than among statements.
+  void applications() {
+    for (uint32_t count = 20 + below(60); count > 0 && make_.cost < make_.most_cost; --count) {
+      const GlslType type = make_.any_type();
+      const std::string made = name("v");
+      line(type.name() + " " + made + " = " + make_.expression(type, 1) + ";");
+      for (uint32_t marks = 1 + below(3); marks > 0; --marks) mark({made, type, 0, false, false});
+    }
   }
 
   /// What nearly every light has, so that more than noise goes through what follows.

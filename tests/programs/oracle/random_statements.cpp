@@ -16,7 +16,7 @@ void RandomStatements::statements(uint32_t count, int nesting) {
   Block block(*this);
   for (; count > 0 && make_.cost < make_.most_cost; --count) {
     statement(nesting);
-    if (make_.one_in(2)) mark();
+    if (marked_ && !make_.scope.empty() && make_.one_in(2)) mark(late_variable());
   }
 }
 
@@ -60,9 +60,7 @@ GlslVariable RandomStatements::late_variable() {
   return make_.scope[make_.scope.size() - 1 - below(uint32_t(std::min<size_t>(make_.scope.size(), 12)))];
 }
 
-void RandomStatements::mark() {
-  if (!marked_ || make_.scope.empty()) return;
-  const GlslVariable variable = late_variable();
+void RandomStatements::mark(const GlslVariable& variable) {
   const std::string bits = (variable.type.base == 'f' ? "floatBitsToUint(" : "uint(") + scalar_of(variable) + ")";
   line("mark = (mark ^ " + bits + ") * 16777619u;");
 }

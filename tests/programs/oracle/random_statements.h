@@ -56,8 +56,8 @@ class RandomStatements {
   std::string scalar_of(const GlslVariable& variable);
   /// One that was declared lately.
   GlslVariable late_variable();
-  /// The bits of a late variable go into a mark, so that no result is lost on the way to the pixel.
-  void mark();
+  /// The bits of a scalar of a variable go into a mark, so that no result is lost on the way to the pixel.
+  void mark(const GlslVariable& variable);
 
   RandomExpressions make_;
   std::string text_;
