@@ -112,6 +112,7 @@ void add_parts(Values& all) {
                real_of("unpackHalf2x16(a).x", {0x7E00}, kNaN),
                real_of("unpackHalf2x16(a).x", {0x7BFF}, 65504),
                of_real("packUnorm4x8(X)", 'u', {0, 1, 0.5f, 2}, 0xFF80FF00),
+               of_real("packUnorm4x8(X)", 'u', {1 / 6.0f, 0, 0, 0}, 42),  // 42.5
                of_real("packUnorm4x8(X)", 'u', {kNaN, -1, 0x1.010102p-9f, kInf}, 0xFF000000),
                of_real("packSnorm4x8(X)", 'u', {-1, 1, -0.5f, -9}, 0x81C07F81),
                of_real("packSnorm4x8(X)", 'u', {kNaN, 0, 0, 0}, 0x81),

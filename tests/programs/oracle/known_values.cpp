@@ -59,6 +59,9 @@ void conversions(Values& all) {
   add(all, {
                of_real("int(x)", 'i', {-1.75f}, -1),
                of_real("int(x)", 'i', {3e9f}, 0x7FFFFFFF),
+               of_real("int(x)", 'i', {0x1p31f}, 0x7FFFFFFF),
+               of_real("int(x)", 'i', {-0x1p31f}, kMinus),
+               of_real("uint(x)", 'u', {0x1p32f}, 0xFFFFFFFF),
                of_real("int(x)", 'i', {-3e9f}, kMinus),
                of_real("int(x)", 'i', {kNaN}, 0),
                of_real("int(x)", 'i', {kInf}, 0x7FFFFFFF),
