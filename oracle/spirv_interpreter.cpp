@@ -13,7 +13,7 @@ namespace {
 using Kind = SpirvType::Kind;
 using SpirvWords = std::vector<uint32_t>;
 
-constexpr uint32_t kUniform = 2, kStorageBuffer = 12, kBlockInUniform = 2;
+constexpr uint32_t kUniform = 2, kStorageBuffer = 12;  ///< storage classes
 
 /// One run of one module.
 class SpirvRun {
@@ -38,6 +38,11 @@ class SpirvRun {
 
   static bool is_block(const SpirvInstruction& variable) {
     return variable.operands[0] == kUniform || variable.operands[0] == kStorageBuffer;
+  }
+
+  bool is_storage(const SpirvInstruction& variable) const {
+    return variable.operands[0] == kStorageBuffer ||
+           module_.buffer_blocks.contains(module_.type(variable.type).element);
   }
 
   /// A pointer to a new cell of memory.
@@ -75,12 +80,12 @@ class SpirvRun {
     const uint32_t block = module_.type(variable.type).element;
     SpirvWords& cell = memory_[globals_[variable.result].scalars[0]];
     const std::string& name = module_.names.at(block);
-    if (!fill(inputs, name, block, cell, 0) && variable.operands[0] == kBlockInUniform)
+    if (!fill(inputs, name, block, cell, 0) && !is_storage(variable))
       throw std::runtime_error("block " + name + " lacks an input");
   }
 
   void write_block(const SpirvInstruction& variable, SpirvScalars& outputs) {
-    if (variable.operands[0] != kStorageBuffer) return;
+    if (!is_storage(variable)) return;
     const uint32_t block = module_.type(variable.type).element;
     const SpirvType& type = module_.type(block);
     const SpirvWords& cell = memory_[globals_[variable.result].scalars[0]];

@@ -185,6 +185,8 @@ void read_constant(SpirvModule& module, const SpirvInstruction& i) {
   module.constants[i.result] = value;
 }
 
+constexpr uint32_t kBufferBlock = 3;  ///< a decoration
+
 /// All that stands before the first function.
 void read_declaration(SpirvModule& module, const SpirvInstruction& i) {
   using namespace spirv;
@@ -195,6 +197,7 @@ void read_declaration(SpirvModule& module, const SpirvInstruction& i) {
   if (i.opcode == OpExtInstImport) module.extension_sets[i.result] = text_at(i.operands, 0);
   if (i.opcode == OpEntryPoint) module.entry_point = i.operands[1];
   if (i.opcode == OpVariable) module.variables.push_back(i);
+  if (i.opcode == OpDecorate && i.operands[1] == kBufferBlock) module.buffer_blocks.insert(i.operands[0]);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -40,6 +41,7 @@ struct SpirvModule {
   uint32_t bound = 0, entry_point = 0;
   std::map<uint32_t, std::string> names, extension_sets;
   std::map<uint32_t, std::map<uint32_t, std::string>> member_names;
+  std::set<uint32_t> buffer_blocks;  ///< types of storage blocks as SPIR-V before 1.3 marks them
   std::map<uint32_t, SpirvType> types;
   std::map<uint32_t, SpirvValue> constants;
   std::vector<SpirvInstruction> variables;  ///< outside functions

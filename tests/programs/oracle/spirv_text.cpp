@@ -187,6 +187,17 @@ TEST_CASE("modf and frexp of the oracle's interpreter write through a pointer as
   CHECK(int_result("%m = OpExtInst %fx %glsl FrexpStruct %x\n%r = OpCompositeExtract %int %m 1", given) == 2);
 }
 
+TEST_CASE("a storage block marked in the way of SPIR-V 1.0 is an output as well") {
+  std::string text = module_text("%float", "%r = OpFAdd %float %x %x");
+  for (const auto& [from, to] :
+       {std::pair<std::string, std::string>{"OpDecorate %Out Block", "OpDecorate %Out BufferBlock"},
+        {"%p_Out = OpTypePointer StorageBuffer", "%p_Out = OpTypePointer Uniform"},
+        {"%p_r = OpTypePointer StorageBuffer", "%p_r = OpTypePointer Uniform"},
+        {"%out = OpVariable %p_Out StorageBuffer", "%out = OpVariable %p_Out Uniform"}})
+    text.replace(text.find(from), from.size(), to);
+  CHECK(result_of(text, {3, 0, 0, {1, 2, 3, 4}})[0] == bits(6));
+}
+
 TEST_CASE("all phis of a block are read before one of them is written") {
   // a, b = 1, 2 change places twice three times; then r = 10 a + b with the last change undone: 10 * 2 + 1.
   const std::string swap = R"(OpBranch %head
