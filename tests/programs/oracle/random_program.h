@@ -19,7 +19,7 @@ struct RandomProgram {
 /// five trips by a constant bound, however their data go. Always GLSL 4.60 that glslang takes; the same text for the
 /// same seed on every machine. A quarter are operations one after the other. The bits of what is computed go into a
 /// mark that light returns. One invocation runs some 1,000 instructions; of 5,000 programs 4 run more than 10,000.
-/// `precise` is left out: propagating it, glslang 12.0 reads memory that it has freed, and crashes at times.
+/// `precise` is left out, because glslang 12.0 crashes on some programs that have it.
 RandomProgram random_program(uint64_t seed);
 
 }  // namespace trueshade::testing
