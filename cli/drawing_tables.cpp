@@ -18,6 +18,14 @@ void add_layers(CommandTable& table, PipelineOptions& options) {
             "JSON file of values that replace the preset's and the scene's");
 }
 
+/// Of commands that draw lights.
+static void add_light_program(CommandTable& table, PipelineOptions& options) {
+  add_value(table, "--light-shader", "FILE", options.light_shader,
+            "GLSL or SPIR-V of light(), which takes the place of the preset's formula (docs/light_programs.md)");
+  add_values(table, "--light-parameter", "NAME=VALUE", options.light_parameters,
+             "A member of its uniform block Parameters, components with commas; may be repeated");
+}
+
 void add_size(CommandTable& table, std::optional<std::string>& size) {
   add_value(table, "--size", "WxH", size, "Image size in pixels, WIDTHxHEIGHT").group = kCameraGroup;
 }
@@ -123,6 +131,7 @@ CommandTable render_table(RenderOptions& options, RenderTexts& texts) {
             ".py .ny .pz .nz before the ending")
       .group = kCameraGroup;
   add_layers(table, options);
+  add_light_program(table, options);
   add_target(table, texts.target);
   add_strategy(table, texts.strategy);
   add_profile(table, texts.profile);
@@ -155,6 +164,7 @@ CommandTable shade_table(ShadeOptions& options, ShadeTexts& texts) {
   add_quiet(table, options, kQuietHelp);
   add_time(table, texts.time);
   add_layers(table, options);
+  add_light_program(table, options);
   add_target(table, texts.target);
   add_choice(table, "--strategy", "NAME", texts.strategy,
              "How lights come to pixels: forward-loop, deferred-volumes or deferred-loop",

@@ -10,6 +10,7 @@
 #include "cli/terminal.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/output/view_image.h"
+#include "shading/program/cut_lights.h"
 
 namespace trueshade {
 namespace {
@@ -104,6 +105,16 @@ std::string lost_volumes_line(const Scene& scene, const Pipeline& pipeline) {
          "sees from there (light_volumes.cull_face front draws every light)";
 }
 
+std::string cut_line(const Scene& scene, const Pipeline& pipeline) {
+  const CutLights cut = cut_lights(scene, pipeline);
+  if (cut.count == 0) return {};
+  char added[32];
+  std::snprintf(added, sizeof added, "%.3g", double(cut.added));
+  return counted(cut.count, "light ends", "lights end") +
+         " at its range, where the light program still adds something: light " + std::to_string(cut.light) + " up to " +
+         added + " on a white surface (light_volumes.point and spot unbounded draw it)";
+}
+
 std::string boxes_line(const Scene& scene, ImageView view) {
   const uint64_t boxed = boxed_lights(scene), all = scene.lights.size();
   if (boxed == all && all > 0) return {};
@@ -123,14 +134,17 @@ std::string uv_line(const Scene& scene) {
 }  // namespace
 
 Notes notes_of(const Scene& scene, const Pipeline& pipeline) {
-  Notes notes{ignored_fields(scene, pipeline), scene.notes};
+  // What a light program reads is what it says; the preset's own formula is not asked.
+  const bool by_program = pipeline.light_program.used();
+  Notes notes{by_program ? std::vector<IgnoredField>() : ignored_fields(scene, pipeline), scene.notes};
   for (const IgnoredField& field : notes.ignored) notes.lines.push_back(line_of(scene, field));
   if (const uint64_t materials = implausible_reflectances(scene); materials > 0)
     notes.lines.push_back(reflectance_line(materials));
   const bool boxes = shows_boxes(pipeline.view);
   for (std::string line :
        {boxes ? boxes_line(scene, pipeline.view) : std::string(), boxes ? eye_in_boxes_line(scene) : std::string(),
-        pipeline.view == ImageView::uv ? uv_line(scene) : std::string(), lost_volumes_line(scene, pipeline)})
+        pipeline.view == ImageView::uv ? uv_line(scene) : std::string(), lost_volumes_line(scene, pipeline),
+        by_program ? cut_line(scene, pipeline) : std::string()})
     if (!line.empty()) notes.lines.push_back(std::move(line));
   return notes;
 }

@@ -48,6 +48,8 @@ struct PipelineOptions : LimitedOptions {
   std::string scene;                  ///< a file or builtin:NAME
   std::optional<std::string> preset;  ///< the lowest layer; nothing: the first row of presets()
   std::optional<std::string> pipeline_file;
+  std::optional<std::string> light_shader;    ///< a light program's file
+  std::vector<std::string> light_parameters;  ///< NAME=VALUE[,VALUE...]
   std::optional<Size> size;
   std::optional<Format> target;
   std::optional<NumericProfile> profile;

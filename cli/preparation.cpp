@@ -1,6 +1,7 @@
 #include "cli/preparation.h"
 
 #include <algorithm>
+#include <charconv>
 #include <tuple>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "core/image_files/image_io.h"
 #include "core/memory_cap.h"
 #include "core/pixel_cap.h"
+#include "core/sha256.h"
 #include "core/standard_input.h"
 #include "scenes/files/content/scene_files.h"
 #include "scenes/json/json_value.h"
@@ -19,7 +21,7 @@
 namespace trueshade {
 namespace {
 
-constexpr uint64_t kMaxPipelineBytes = uint64_t(1) << 20;
+constexpr uint64_t kMaxPipelineBytes = uint64_t(1) << 20, kMaxProgramBytes = uint64_t(4) << 20;
 
 std::string text_of(const std::string& file) {
   if (file == kStandardInputName)  // it is read twice, and another option may read a scene from there
@@ -67,14 +69,59 @@ uint64_t file_memory(const Pipeline& pipeline, const PictureRegion& region, std:
   const uint64_t texel = texel_bytes(pipeline), shown = 4 + 3, pixels = drawn_pixels(pipeline, region);
   uint64_t largest = 0;
   for (const std::string& path : paths)
-    largest = std::max(largest, has_ending(path, ".html") ? 100 * std::max(shown, texel) * pixels
+    largest = std::max(largest, has_ending(path, ".html")  ? 100 * std::max(shown, texel) * pixels
                                 : has_ending(path, ".exr") ? kKeptOf100 * picture_memory(pipeline, region, planes)
                                                            : kKeptOf100 * texel * pixels);
   return largest / 100;
 }
 
+namespace {
+
+/// `gain=2` or `tint=1,0.5,0.2`.
+ProgramParameter parameter_of(const std::string& text) {
+  const size_t equals = text.find('=');
+  const auto wrong = [&] {
+    return Error(ErrorKind::usage, "--light-parameter", "'" + text + "' is no parameter", "NAME=VALUE[,VALUE...]");
+  };
+  if (equals == std::string::npos || equals == 0) throw wrong();
+  ProgramParameter out{text.substr(0, equals), {}};
+  for (size_t at = equals; at != std::string::npos; at = text.find(',', at + 1)) {
+    const std::string number = text.substr(at + 1, text.find(',', at + 1) - at - 1);
+    float value = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+    if (error != std::errc() || end != number.data() + number.size() || out.value.size() == 4) throw wrong();
+    out.value.push_back(value);
+  }
+  return out;
+}
+
+/// The program of --light-shader; where a pipeline names one already, it must be that.
+void set_light_program(const PipelineOptions& options, LightProgram& program) {
+  if (!options.light_shader && !options.light_parameters.empty())
+    throw Error(ErrorKind::usage, "--light-parameter", "there is no light program", "add --light-shader FILE");
+  if (!options.light_shader) {
+    if (program.used())
+      throw Error(ErrorKind::usage, "light_program", "the pipeline names " + program.file + ", whose text is not here",
+                  "add --light-shader FILE");
+    return;
+  }
+  const Bytes bytes = read_user_file(*options.light_shader, kMaxProgramBytes, "");
+  const std::string expected = program.sha256;
+  program.file = *options.light_shader;
+  program.text = {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  program.sha256 = sha256_of(program.text);
+  if (!expected.empty() && expected != program.sha256)
+    throw Error(ErrorKind::bad_input, program.file, "is not the light program that the pipeline names",
+                "the file whose SHA-256 is " + expected);
+  if (!options.light_parameters.empty()) program.parameters.clear();
+  for (const std::string& text : options.light_parameters) program.parameters.push_back(parameter_of(text));
+}
+
+}  // namespace
+
 Pipeline pipeline_of(const PipelineOptions& options, const Scene& scene) {
   Pipeline pipeline = options.preset ? *preset_pipeline(*options.preset) : default_pipeline(scene);
+  if (options.light_shader) pipeline.light_volumes.point = pipeline.light_volumes.spot = LightExtent::range;
   if (!scene.pipeline_text.empty())
     pipeline = pipeline_from_json(scene.pipeline_text, options.scene + ": /pipeline", pipeline);
   if (options.pipeline_file)
@@ -84,6 +131,7 @@ Pipeline pipeline_of(const PipelineOptions& options, const Scene& scene) {
   if (options.profile) pipeline.profile = *options.profile;
   if (options.strategy) pipeline.strategy = *options.strategy;
   if (options.view) pipeline.view = *options.view;
+  set_light_program(options, pipeline.light_program);
   validate(pipeline);
   require_pixels(pipeline.width, pipeline.height, options.scene);
   return pipeline;

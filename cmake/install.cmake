@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/trueshade)
 set_target_properties(trueshade_flags PROPERTIES EXPORT_NAME flags)
 
-install(TARGETS trueshade_flags trueshade_core trueshade_scene_values trueshade_scenes trueshade_raster trueshade_shading EXPORT trueshade
+install(TARGETS trueshade_flags trueshade_core trueshade_scene_values trueshade_scenes trueshade_raster trueshade_programs trueshade_shading EXPORT trueshade
         COMPONENT dev)
 install(TARGETS trueshade_image_files trueshade_image_io EXPORT trueshade_image_io COMPONENT dev)
 install(TARGETS trueshade COMPONENT command)
@@ -14,7 +14,7 @@ if(TARGET trueshade_mpi_module)
 endif()
 foreach(header
   core/array.h core/blend_state.h core/error.h core/expansion.h core/format.h core/memory_cap.h core/threads/parallel_for.h core/half.h core/image.h core/image_files/image_io.h core/numeric_profile.h core/sha256.h
-  scenes/builtin/builtin.h scenes/camera.h scenes/pipeline/image_view.h scenes/light.h scenes/pipeline/light_model.h scenes/mesh.h scenes/pipeline/pipeline.h
+  scenes/builtin/builtin.h scenes/camera.h scenes/pipeline/image_view.h scenes/light.h scenes/pipeline/light_model.h scenes/pipeline/light_program.h scenes/mesh.h scenes/pipeline/pipeline.h
   scenes/placement.h scenes/pipeline/post_chain.h scenes/pipeline/presets.h scenes/texture.h scenes/timeline.h scenes/pipeline/transparency.h
   scenes/scene.h scenes/scene_limits.h core/simd/simd_target.h shading/frame.h shading/output/extent.h)
   get_filename_component(folder ${header} DIRECTORY)

@@ -33,4 +33,11 @@ class Sha256 {
   bool plain_ = false;
 };
 
+/// The digits of a text.
+inline std::string sha256_of(std::string_view text) {
+  Sha256 sum;
+  sum.update(text.data(), text.size());
+  return sum.hex();
+}
+
 }  // namespace trueshade

@@ -31,6 +31,8 @@ ExplainedFrame::ExplainedFrame(const Scene& of_scene, const Pipeline& of_pipelin
       volume_state(light_geometry_state(pipeline)),
       volume_window(window_transform(volume_state, pipeline.width, pipeline.height, pipeline.profile)),
       target{pipeline.target, pipeline.profile, pipeline.gbuffer.half_round},
-      transparency(draws_transparent(scene, pipeline) ? pipeline.transparency.mode : TransparencyMode::none) {}
+      transparency(draws_transparent(scene, pipeline) ? pipeline.transparency.mode : TransparencyMode::none) {
+  require_no_light_program(pipeline, "explain");
+}
 
 }  // namespace trueshade

@@ -112,7 +112,8 @@ Frame draw_surfaces(const PreparedScene& prepared, const Pipeline& asked_for, co
                     const Progress& progress) {
   const FpScope fp;
   const Scene& scene = prepared.scene();
-  const Pipeline pipeline = given == nullptr ? without_idle_emission(scene, asked_for) : asked_for;
+  const Pipeline pipeline =
+      with_planes_of_program(given == nullptr ? without_idle_emission(scene, asked_for) : asked_for);
   const FramePlan plan = plan_frame(scene, pipeline, asked, planes, lit);
   const int threads = plan.execution.threads;
   check_memory(plan, pipeline, planes);
@@ -133,9 +134,9 @@ Frame draw_surfaces(const PreparedScene& prepared, const Pipeline& asked_for, co
                        tables,
                        light_volume_draws(scene.lights, pipeline, plan.execution, tables.lights, tables.clusters,
                                           *tables.meshes, tables.outlines, view),
-                       LightPlanes(planes, scene, pipeline, *tables.meshes, view),
+                       LightPlanes(planes, scene, pipeline, plan.program.get(), *tables.meshes, view),
                        ViewDistance(scene, pipeline),
-                       TransparentPass(scene, pipeline, plan.execution),
+                       TransparentPass(scene, pipeline, plan.program.get(), plan.execution),
                        given,
                        frame};
   stats.before_tiles_ms = now_ms() - start;

@@ -45,7 +45,9 @@ FramePlan plan_frame(const Scene& scene, const Pipeline& pipeline, const Executi
   plan.transparency = draws_transparent(scene, pipeline) ? pipeline.transparency.mode : TransparencyMode::none;
   plan.tied_fragments = pipeline.strategy == Strategy::forward_multipass;
   const bool shows_uv = std::find(planes.begin(), planes.end(), "uv") != planes.end();
-  plan.uv_planes = shows_uv ? UvPlanes::filled : UvPlanes::omitted;
+  if (lit && pipeline.light_program.used()) plan.program = std::make_shared<ProgramFrame>(scene, pipeline);
+  const bool reads_uv = plan.program != nullptr && plan.program->reads().uv;
+  plan.uv_planes = shows_uv || reads_uv ? UvPlanes::filled : UvPlanes::omitted;
   plan.light_geometry = plan.blends() && execution.count_as_gl;
   plan.surface_planes = surface_planes(pipeline);
   plan.target = {pipeline.target, pipeline.profile, pipeline.gbuffer.half_round};

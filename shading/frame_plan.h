@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <glm/vec4.hpp>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 #include "shading/blend/blend.h"
+#include "shading/program/program_frame.h"
 #include "shading/sum/light_pass.h"
 
 namespace trueshade {
@@ -43,6 +45,7 @@ struct FramePlan {
   glm::vec4 clear;                  ///< the colour that a draw stores as what a clear leaves
   LightShortcuts shortcuts;         ///< of the pass that sums
   std::vector<PlaneSource> planes;  ///< of each plane asked for, in order
+  std::shared_ptr<const ProgramFrame> program;  ///< what lights add in place of a light model; null: none
 
   bool lit() const { return light_pass != LightPass::none; }
   bool blends() const { return light_pass == LightPass::blends; }

@@ -63,6 +63,7 @@ void make_tables(const FramePlan& plan, const PreparedScene& prepared, const Pip
                 {rows.tasks(), [&](int i) { rows.run(i); }}},
                execution.threads);
   rows.finish();
+  tables.lights.program = plan.program.get();
   if (plan.blends()) tables.outline_tasks.finish(execution.threads);
   if (plan.lit() && execution.light_culling)
     make_light_clusters(tables.lights, execution.threads, tables.clusters);

@@ -48,6 +48,7 @@ void load_surfaces(const GivenSurfaces& given, const View& view, const TileRect&
                    SurfaceTile& out) {
   const bool halved = info(given.normal->format).number_class == NumberClass::unorm;
   out.covered_pixels = 0;
+  out.x = rect.x, out.y = rect.y;
   for (int in_tile_y = 0; in_tile_y < rect.size; ++in_tile_y)
     for (int in_tile_x = 0; in_tile_x < rect.size; ++in_tile_x) {
       const int i = tile_index(rect.size, in_tile_x, in_tile_y);

@@ -344,6 +344,7 @@ const Targets& GlRenderer::targets(const Pipeline& pipeline, const GlslOptions& 
 }
 
 GlFrame GlRenderer::draw(const Pipeline& asked, const GlDraw& draw) {
+  require_no_light_program(asked, "OpenGL's frame");
   const bool post = draw.post && asked.post.active();
   const Pipeline pipeline = drawn_pipeline(post ? pipeline_without_post(asked) : asked);
   context_->make_current();

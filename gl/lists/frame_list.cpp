@@ -363,6 +363,7 @@ class FrameLister {
 }  // namespace
 
 FrameList frame_list(const Scene& scene, const Pipeline& pipeline, const GlslOptions& options) {
+  require_no_light_program(pipeline, "a driver's frame");
   return FrameLister(scene, pipeline, options).listed();
 }
 

@@ -246,8 +246,8 @@ LegalTexel widened(const LegalTexel& stored, int channel) {
     const auto c = uint32_t(code);
     return double(channel == 3 ? c * 0x5555u : c << 6 | c >> 4);
   };
-  return {wide(stored.nominal), wide(stored.low), wide(stored.high), stored.second_chance, stored.second_side,
-          stored.either_side};
+  return {wide(stored.nominal), wide(stored.low),   wide(stored.high),
+          stored.second_chance, stored.second_side, stored.either_side};
 }
 
 LegalTexel narrowed(const LegalTexel& wide, int channel) {

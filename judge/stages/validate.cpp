@@ -166,6 +166,7 @@ std::string Verdict::material_line() const {
 
 Verdict validate_capture(const Scene& scene, const Pipeline& asked, const Capture& capture,
                          const ValidateOptions& options) {
+  require_no_light_program(asked, "the judge");
   Pipeline pipeline = asked;
   pipeline.gbuffer = surface_planes(asked);  // forward strategies are judged from float planes of the same surfaces
   Validation validation(scene, pipeline, capture, options);

@@ -63,8 +63,15 @@ HWY_INLINE void set_emission(const MaterialValues& m, MaterialVectors& px) {
 }
 
 /// Metal reflects its base colour at once; other materials reflect little at once and scatter the base colour.
-HWY_INLINE void set_metal(const MaterialValues& m, MaterialVectors& px) {
+HWY_INLINE void set_metal(const MaterialValues& m, bool keeps_metals, MaterialVectors& px) {
   const DF d;
+  if (keeps_metals) {
+    const VF metallic = hn::Set(d, m.metallic), roughness = hn::Set(d, m.roughness);
+    px.specular[0] = m.metallic_roughness_map ? hn::Mul(metallic, px.specular[2]) : metallic;
+    px.specular[1] = m.metallic_roughness_map ? hn::Mul(roughness, px.specular[1]) : roughness;
+    px.specular[2] = px.specular[3] = hn::Zero(d);
+    return;
+  }
   VF metallic = hn::Set(d, m.metallic);
   px.specular[3] = hn::Set(d, m.specular[3]);
   if (m.metallic_roughness_map) {
@@ -84,7 +91,7 @@ HWY_INLINE void apply_values(const MaterialValues& m, const LightModel& model, M
   const DF d;
   if (m.unlit) return show_unlit(m, px);
   if (model.emission) set_emission(m, px);
-  if (maps_metals(model)) return set_metal(m, px);
+  if (maps_metals(model)) return set_metal(m, model.keeps_metals, px);
   for (int c = 0; c < 4; ++c) {
     const VF given = hn::Set(d, m.specular[c]);
     px.specular[c] = m.specular_map && c < 3 ? hn::Mul(given, px.specular[c]) : given;

@@ -5,6 +5,7 @@
 namespace trueshade {
 void resolve_surfaces(const TileDraws& in, const TileRect& rect, const GBufferState& planes, const LightModel& model,
                       const VisibilityTile& visible, UvPlanes uv, VisibleVertices& work, SurfaceTile& out) {
+  out.x = rect.x + int(in.view.window.corner[0]), out.y = rect.y + int(in.view.window.corner[1]);
   kernel<resolve_surfaces>()(in, rect, planes, model, visible, uv, work, out);
 }
 

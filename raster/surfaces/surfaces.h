@@ -38,6 +38,7 @@ struct SurfaceTile {
   alignas(64) float plane[kPlanes][kMaxTilePixels];
   alignas(64) uint32_t object[kMaxTilePixels], material[kMaxTilePixels];  ///< index + 1
   int covered_pixels;
+  int x, y;  ///< of the lower left pixel in the picture, y up
 };
 
 /// A cluster of which a pixel was seen.

@@ -75,6 +75,8 @@ struct LightModel {
   glm::vec3 global_ambient{0.0f};  ///< and from albedo times this; each in [0, 1e18]
   float damping = 1.0f;            ///< multiplies the colour of every light; in [0, 1e18]
   bool clamp_result = false;       ///< the sum and alpha are clamped to [0, 1] before they are stored
+  bool keeps_metals = false;       ///< of metallic_roughness, for light programs alone, and in no file: the plane
+                                   ///< `specular` holds metallic, roughness, 0 and 0; the albedo is the base colour
   bool operator==(const LightModel&) const = default;
 };
 

@@ -8,6 +8,7 @@
 #include "core/numeric_profile.h"
 #include "scenes/pipeline/image_view.h"
 #include "scenes/pipeline/light_model.h"
+#include "scenes/pipeline/light_program.h"
 #include "scenes/pipeline/post_chain.h"
 #include "scenes/pipeline/transparency.h"
 
@@ -121,6 +122,7 @@ struct Pipeline {
   GeometryState geometry;
   GBufferState gbuffer;
   LightModel light_model;
+  LightProgram light_program;  ///< takes the place of light_model where there is one
   LightVolumes light_volumes;
   BlendState blend = kAddLight;  ///< of deferred-volumes, a light's draws; forward-multipass always has kAddLight
   TransparencyState transparency;
@@ -183,6 +185,8 @@ int tile_for(int width, int height, int threads);
 
 /// Throws Error(usage) naming the field and its range.
 void validate(const Pipeline& pipeline);
+/// Error(usage) where the pipeline has a light program: `what` does not take one.
+void require_no_light_program(const Pipeline& pipeline, std::string_view what);
 /// The same for what never changes a pixel.
 void validate(const Execution& execution);
 void validate_region(const Pipeline& pipeline, const PictureRegion& region);  ///< that it is within the picture

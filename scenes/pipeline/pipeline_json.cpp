@@ -111,6 +111,22 @@ void read_light_model(const json::Node& node, LightModel& m) {
               "specular none or specular_source albedo");
 }
 
+void read_light_program(const json::Node& node, LightProgram& program) {
+  constexpr size_t kMostParameters = 256;
+  node.check_keys(kPipelineJsonKeys[kLightProgram]);
+  program = {node.member("file").string(), {}, {}, {}};
+  if (program.file.empty()) node.fail("the file of a light program has no name", "its name");
+  if (const auto sum = node.find("sha256")) program.sha256 = sum->string();
+  const auto parameters = node.find("parameters");
+  for (size_t i = 0; parameters && i < parameters->array(0, kMostParameters).size(); ++i) {
+    const json::Node one = parameters->element(i);
+    one.check_keys(kPipelineJsonKeys[kProgramParameter]);
+    ProgramParameter& p = program.parameters.emplace_back(ProgramParameter{one.member("name").string(), {}});
+    const json::Node value = one.member("value");
+    for (size_t k = 0; k < value.array(1, 4).size(); ++k) p.value.push_back(value.element(k).real(-1e38, 1e38));
+  }
+}
+
 void read_light_volumes(const json::Node& node, LightVolumes& v) {
   node.check_keys(kPipelineJsonKeys[kLightVolumes]);
   read_choice(node, "point", v.point, kExtents);
@@ -201,6 +217,7 @@ Pipeline pipeline_from_node(const json::Node& node, const Pipeline& base) {
   if (const auto geometry = node.find("geometry")) read_geometry(*geometry, p.geometry);
   if (const auto gbuffer = node.find("gbuffer")) read_gbuffer(*gbuffer, p.gbuffer);
   if (const auto model = node.find("light_model")) read_light_model(*model, p.light_model);
+  if (const auto program = node.find("light_program")) read_light_program(*program, p.light_program);
   if (const auto volumes = node.find("light_volumes")) read_light_volumes(*volumes, p.light_volumes);
   if (const auto blend = node.find("blend")) read_blend(*blend, p.blend);
   if (const auto transparency = node.find("transparency")) read_transparency(*transparency, p.transparency);

@@ -1,6 +1,7 @@
 #include <string>
 
 #include "core/fp_env.h"
+#include "core/sha256.h"
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/pipeline/pipeline_words.h"
 
@@ -105,6 +106,22 @@ void write_light_model(std::string& out, const LightModel& m) {
   w.put("clamp_result", m.clamp_result);
 }
 
+void write_light_program(std::string& out, const LightProgram& program) {
+  Writer w(out);
+  w.put("file", std::string_view(program.file));
+  w.put("sha256", std::string_view(program.text.empty() ? program.sha256 : sha256_of(program.text)));
+  std::string& parameters = w.key("parameters") += '[';
+  for (const ProgramParameter& p : program.parameters) {
+    if (&p != &program.parameters.front()) parameters += ',';
+    Writer one(parameters);
+    one.put("name", std::string_view(p.name));
+    std::string& value = one.key("value");
+    for (size_t k = 0; k < p.value.size(); ++k) json::append_number(value += k == 0 ? '[' : ',', p.value[k]);
+    value += ']';
+  }
+  parameters += ']';
+}
+
 void write_light_volumes(std::string& out, const LightVolumes& v) {
   Writer w(out);
   w.put("point", v.point, kExtents);
@@ -176,6 +193,7 @@ std::string pipeline_json(const Pipeline& pipeline) {
     write_geometry(w.key("geometry"), pipeline.geometry);
     write_gbuffer(w.key("gbuffer"), pipeline.gbuffer);
     write_light_model(w.key("light_model"), pipeline.light_model);
+    if (pipeline.light_program.used()) write_light_program(w.key("light_program"), pipeline.light_program);
     write_light_volumes(w.key("light_volumes"), pipeline.light_volumes);
     write_blend(w.key("blend"), pipeline.blend);
     write_transparency(w.key("transparency"), pipeline.transparency);

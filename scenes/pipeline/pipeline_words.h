@@ -34,8 +34,9 @@ inline constexpr std::string_view kSpecularSources[] = {"model", "albedo", "mate
 inline constexpr std::string_view kViewers[] = {"local", "infinite"};
 
 inline constexpr std::string_view kRootKeys[] = {
-    "version", "preset",       "width",    "height", "geometry", "gbuffer", "light_model", "light_volumes",
-    "blend",   "transparency", "strategy", "target", "profile",  "post",    "view",        "$schema"};
+    "version",     "preset",        "width",         "height", "geometry",     "gbuffer",
+    "light_model", "light_program", "light_volumes", "blend",  "transparency", "strategy",
+    "target",      "profile",       "post",          "view",   "$schema"};
 inline constexpr std::string_view kGeometryKeys[] = {"viewport",
                                                      "depth_near",
                                                      "depth_far",
@@ -59,6 +60,8 @@ inline constexpr std::string_view kLightModelKeys[] = {
     "renormalize", "specular_masked", "shininess", "specular_color",  "falloff", "order",    "alpha_from_albedo",
     "cone",        "diffuse",         "specular",  "specular_source", "viewer",  "emission", "global_ambient",
     "damping",     "clamp_result"};
+inline constexpr std::string_view kLightProgramKeys[] = {"file", "sha256", "parameters"};
+inline constexpr std::string_view kProgramParameterKeys[] = {"name", "value"};
 inline constexpr std::string_view kLightVolumesKeys[] = {"point",     "spot",        "slices", "stacks",
                                                          "cull_face", "depth_clamp", "base"};
 inline constexpr std::string_view kBlendKeys[] = {"enabled", "rgb", "alpha", "constant", "mask"};
@@ -78,6 +81,8 @@ enum : size_t {
   kGBuffer,
   kPlane,
   kLightModel,
+  kLightProgram,
+  kProgramParameter,
   kLightVolumes,
   kBlend,
   kBlendTerm,
@@ -85,12 +90,14 @@ enum : size_t {
   kPost,
   kBloom
 };
-inline constexpr std::array<json::ObjectKeys, 12> kPipelineJsonKeys{{{"", kRootKeys},
+inline constexpr std::array<json::ObjectKeys, 14> kPipelineJsonKeys{{{"", kRootKeys},
                                                                      {"geometry", kGeometryKeys},
                                                                      {"viewport", kViewportKeys},
                                                                      {"gbuffer", kGBufferKeys},
                                                                      {"plane", kPlaneKeys},
                                                                      {"light_model", kLightModelKeys},
+                                                                     {"light_program", kLightProgramKeys},
+                                                                     {"program_parameter", kProgramParameterKeys},
                                                                      {"light_volumes", kLightVolumesKeys},
                                                                      {"blend", kBlendKeys},
                                                                      {"blend_term", kBlendTermKeys},

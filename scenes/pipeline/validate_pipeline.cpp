@@ -150,12 +150,22 @@ void validate(const Pipeline& pipeline) {
   check_blend(pipeline.blend, "blend");
   check_transparency(pipeline);
   require_enumerator(pipeline.strategy, Strategy::deferred_loop, "strategy");
+  if (pipeline.light_program.used() && blends_lights(pipeline.strategy))
+    throw Error(ErrorKind::usage, "strategy",
+                "light programs are summed, and " + std::string(name_of(pipeline.strategy)) + " blends light by light",
+                "deferred-loop or forward-loop");
   require_format(pipeline.target, kTargetFormats, "target");
   require_enumerator(pipeline.profile, NumericProfile::mesa_llvmpipe_22_3, "profile");
   check_post(pipeline.post);
   require_enumerator(pipeline.view, ImageView::overdraw, "view");
   require(!pipeline.gbuffer.position_from_depth || pipeline.geometry.depth_near != pipeline.geometry.depth_far,
           "gbuffer.position_from_depth", "a depth range of one value", "depth_near and depth_far that differ");
+}
+
+void require_no_light_program(const Pipeline& pipeline, std::string_view what) {
+  if (pipeline.light_program.used())
+    throw Error(ErrorKind::usage, pipeline.light_program.file, std::string(what) + " takes no light program",
+                "leave --light-shader out");
 }
 
 int tile_for(int width, int height, int threads) {

@@ -18,7 +18,8 @@ TileDraws with_list(const TileDraws& draws, std::span<const uint32_t> list) {
 
 }  // namespace
 
-TransparentPass::TransparentPass(const Scene& scene, const Pipeline& pipeline, const Execution& execution)
+TransparentPass::TransparentPass(const Scene& scene, const Pipeline& pipeline, const ProgramFrame* program,
+                                 const Execution& execution)
     : scene_(scene),
       mode_(draws_transparent(scene, pipeline) ? pipeline.transparency.mode : TransparencyMode::none),
       blend_(pipeline.transparency.blend),
@@ -30,6 +31,7 @@ TransparentPass::TransparentPass(const Scene& scene, const Pipeline& pipeline, c
   if (!after_lights()) return;
   lights_ = make_light_table(scene.lights, model_, scene.camera, execution.threads);
   bound_by_extents(lights_, scene.lights, pipeline.light_volumes, false);
+  lights_.program = program;
   if (execution.light_culling) clusters_ = make_light_clusters(lights_, execution.threads);
 }
 

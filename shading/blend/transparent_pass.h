@@ -26,7 +26,9 @@ struct TransparentWork {
 /// with tiles, threads, SIMD target or culling. Borrows the scene, not the pipeline.
 class TransparentPass {
  public:
-  TransparentPass(const Scene& scene, const Pipeline& pipeline, const Execution& execution);
+  /// program: of the frame, or null
+  TransparentPass(const Scene& scene, const Pipeline& pipeline, const ProgramFrame* program,
+                  const Execution& execution);
 
   bool active() const { return mode_ != TransparencyMode::none; }  ///< false where the scene has none
   bool into_albedo() const { return mode_ == TransparencyMode::into_albedo; }

@@ -13,6 +13,8 @@
 
 namespace trueshade {
 
+class ProgramFrame;
+
 /// What a kernel does with a light.
 enum class LightKind : uint8_t {
   point,  ///< point, or a spot that the model gives no cone
@@ -46,6 +48,8 @@ struct LightTable {
                                          ///< vectors with lights that reach nothing
   bool cones = false;  ///< some light's kind is `coned`
   float eye[3], view_axis[3];
+  const ProgramFrame* program = nullptr;  ///< what the lights add in place of a light model; null: none
+  uint32_t first_light = 0;               ///< the number in the scene of the first light here
   uint64_t version = 0;  ///< tables of the process with different lights have different versions; 0: empty
 
   // What LightTableUpdate made the rows of.

@@ -30,13 +30,14 @@ void store(const ColorTile& color, const TileRect& rect, Image& image) {
 }  // namespace
 
 LightPlanes::LightPlanes(std::span<const std::string> planes, const Scene& scene, const Pipeline& pipeline,
-                         const LightMeshes& meshes, const View& view)
+                         const ProgramFrame* program, const LightMeshes& meshes, const View& view)
     : model_(pipeline.light_model) {
   for (size_t i = 0; i < planes.size(); ++i)
     if (const std::optional<size_t> light = light_of_plane(planes[i])) {
       const std::span<const Light> alone = std::span(scene.lights).subspan(*light, 1);
       Plane plane{i, *light, alone, make_light_table(alone, model_, scene.camera), {}};
       bound_by_extents(plane.table, alone, pipeline.light_volumes, pipeline.strategy == Strategy::deferred_volumes);
+      plane.table.program = program, plane.table.first_light = uint32_t(*light);
       if (blends_lights(pipeline.strategy)) plane.outlines = outlines_of_draws(alone, pipeline, meshes, view, 1);
       planes_.push_back(std::move(plane));
     }
@@ -44,7 +45,7 @@ LightPlanes::LightPlanes(std::span<const std::string> planes, const Scene& scene
 
 void LightPlanes::sum(const SurfaceTile& surface, const TileRect& rect, const LightShortcuts& of_target,
                       LightLists& work, ColorTile& color, std::span<NamedImage> planes) const {
-  const LightShortcuts shortcuts{.culling = of_target.culling, .compiled = of_target.compiled};
+  const LightShortcuts shortcuts{.culling = of_target.culling, .compiled = of_target.compiled, .light_alone = true};
   for (const Plane& plane : planes_) {
     LightCounts uncounted;
     light_tile(surface, rect.size, plane.table, LightClusters{}, model_, kNothing, shortcuts, work, color, uncounted);

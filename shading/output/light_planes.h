@@ -22,8 +22,9 @@ std::optional<size_t> light_of_plane(std::string_view name);
 /// twice (docs/views.md).
 class LightPlanes {
  public:
+  /// program: of the frame, or null
   LightPlanes(std::span<const std::string> planes, const Scene& scene, const Pipeline& pipeline,
-              const LightMeshes& meshes, const View& view);
+              const ProgramFrame* program, const LightMeshes& meshes, const View& view);
 
   /// Draws a tile of each plane for strategies that sum; `planes` are those of the constructor, in order. `of_target`:
   /// the shortcuts of the target, of which those that keep sums as they are hold here. `work` and `color` are scratch.

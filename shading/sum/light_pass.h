@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -11,6 +12,8 @@
 #include "shading/light/lists/tile_lights.h"
 
 namespace trueshade {
+
+struct ProgramWork;
 
 struct LightCounts {
   uint64_t tested = 0;           ///< tests of a light against the bounds of a tile or of a region
@@ -31,6 +34,7 @@ struct LightLists {
   FoundLights found;
   std::vector<uint32_t> reaching;  ///< lights of the table that may reach the tile
   TileLights tile, region;
+  std::shared_ptr<ProgramWork> program;  ///< made by the first tile that a light program lights
 };
 
 /// Work that a light pass may leave out. No shortcut changes a bit of what is stored.
@@ -38,6 +42,7 @@ struct LightShortcuts {
   bool culling = true;          ///< leave out lights that are proved to add nothing, by tile, by region and by vector
   bool compiled = true;         ///< use the kernel compiled for the model's shape, where there is one
   std::optional<Format> codes = std::nullopt;  ///< only the sums' codes in this fixed-point format have to be right
+  bool light_alone = false;  ///< of a light program: what lights add is wanted, without what sums start from and become
 };
 
 /// Sums the lights of the table over one tile in index order, in float32 (docs/arithmetic.md section 8), alpha

@@ -3,7 +3,7 @@
 #   sh      commands, a line each (a backslash at a line's end goes on); `# exit 3` states another exit code than 0
 #   text    after sh: lines that the commands before print, in this order; `...` stands for any text
 #   sh python   commands that need the Python module, which tests/docs/python_page.py runs in ./check python: left out
-#   json    a scene or a pipeline, which is drawn, or jobs, which are not run; ply, csv, cpp, python, bash: a file. Each is written under the name in `backticks`
+#   json    a scene or a pipeline, which is drawn, or jobs, which are not run; ply, csv, cpp, glsl, python, bash: a file. Each is written under the name in `backticks`
 #           that the line before the block gives last; a json without a name gets one, a cpp is left out.
 # The cpp blocks of pages with a cmake block are built by tests/consumer/run.sh. What tests/docs/tags.sh lets pass besides is
 # not run.
@@ -128,7 +128,7 @@ while IFS= read -r line || [[ -n $line ]]; do
     case $language in
       sh) run_commands "$first" "${block[@]}" ;;
       text) [[ $before_language != sh ]] || expect_output "$first" "${block[@]}" ;;
-      json | ply | csv | cpp) write_file "$first" "$language" "$before" "${block[@]}" ;;
+      json | ply | csv | cpp | glsl) write_file "$first" "$language" "$before" "${block[@]}" ;;
       bash) write_file "$first" sh "$before" "${block[@]}" ;;
       python) write_file "$first" py "$before" "${block[@]}" ;;
     esac

@@ -33,7 +33,7 @@ while IFS= read -r page; do
     language=${line#'```'}
     case $page:$language in
       *:text) ;;
-      README.md:@(sh|json|ply|csv|bash|python|cmake|cpp) | docs/+([^/]).md:@(sh|sh python|json|ply|csv|bash|python|cmake|cpp)) ;;
+      README.md:@(sh|json|ply|csv|glsl|bash|python|cmake|cpp) | docs/+([^/]).md:@(sh|sh python|json|ply|csv|glsl|bash|python|cmake|cpp)) ;;
       README.md:@(console|yaml) | docs/+([^/]).md:@(console|yaml)) console=yes ;;
       *) fail "$page:$number: blocks of this page may not have the language '$language'"; language=other ;;
     esac

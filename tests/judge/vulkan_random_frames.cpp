@@ -135,7 +135,8 @@ TEST_CASE("Floats of 11 and 10 bits by way of halves are the nearest half, cut")
   const LegalTexel tie = legal_texel({1 + 0.5 / 1024, 1 + 0.5 / 1024, 1 + 0.5 / 1024}, Format::rgba16f, 0, profile);
   CHECK(tie.low == 1);
   CHECK(tie.high == 1 + 1.0 / 1024);
-  const LegalTexel below = legal_texel({-1 - 0.5 / 1024, -1 - 0.5 / 1024, -1 - 0.5 / 1024}, Format::rgba16f, 0, profile);
+  const LegalTexel below =
+      legal_texel({-1 - 0.5 / 1024, -1 - 0.5 / 1024, -1 - 0.5 / 1024}, Format::rgba16f, 0, profile);
   CHECK(below.low == -1 - 1.0 / 1024);
   CHECK(below.high == -1);
 }

@@ -1,0 +1,19 @@
+// In place of front/ in a build without glslang: no text becomes a program.
+#include "programs/front/light_program.h"
+
+#include "core/error.h"
+
+namespace trueshade::programs {
+namespace {
+
+[[noreturn]] void refuse(const std::string& file) {
+  throw Error(ErrorKind::usage, file, "light programs are left out of this build, which found no glslang",
+              "install glslang-dev and spirv-tools, and build anew");
+}
+
+}  // namespace
+
+Program program_from_glsl(const std::string& file, const std::string&, const ProgramLimits&) { refuse(file); }
+Program program_from_spirv(const std::string& file, std::vector<uint32_t>, const ProgramLimits&) { refuse(file); }
+
+}  // namespace trueshade::programs

@@ -1,0 +1,238 @@
+#include "shading/program/program_frame.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string_view>
+
+#include "core/error.h"
+#include "core/sha256.h"
+#include "programs/front/light_program.h"
+#include "raster/view.h"
+#include "scenes/trig.h"
+
+namespace trueshade {
+namespace {
+
+using programs::Executable;
+using programs::ProgramInput;
+using programs::Rate;
+
+constexpr uint32_t kSpirvMagic = 0x07230203;
+
+programs::Program compiled(const LightProgram& program) {
+  uint32_t first = 0;
+  if (program.text.size() >= sizeof first) std::memcpy(&first, program.text.data(), sizeof first);
+  if (first != kSpirvMagic) return programs::program_from_glsl(program.file, program.text);
+  std::vector<uint32_t> words((program.text.size() + 3) / 4);
+  std::memcpy(words.data(), program.text.data(), program.text.size());
+  return programs::program_from_spirv(program.file, std::move(words));
+}
+
+bool starts(std::string_view name, std::string_view field) { return name.starts_with(field); }
+
+ProgramReads reads_of(const Executable& executable) {
+  ProgramReads reads;
+  for (const ProgramInput& input : executable.program.inputs) {
+    const std::string_view name = input.name;
+    for (const std::string_view absent : {"surface.uv1", "surface.tangent", "surface.user", "light.user"})
+      if (starts(name, absent))
+        throw Error(ErrorKind::bad_input, executable.program.name, "reads " + input.name + ", which nothing fills yet",
+                    "another field");
+    reads.gloss = reads.gloss || starts(name, "surface.specular") || starts(name, "surface.shininess");
+    reads.metals = reads.metals || starts(name, "surface.metallic") || starts(name, "surface.roughness");
+    reads.emission = reads.emission || starts(name, "surface.emission") || starts(name, "surface.occlusion");
+    reads.uv = reads.uv || starts(name, "surface.uv");
+  }
+  if (reads.gloss && reads.metals)
+    throw Error(ErrorKind::bad_input, executable.program.name,
+                "reads both specular or shininess and metallic or roughness, which share a plane", "one pair of them");
+  return reads;
+}
+
+/// The number behind the last point of a name, "x" to "w" as 0 to 3.
+int component_of(std::string_view name) {
+  const size_t at = std::string_view("xyzw").find(name.back());
+  return at == std::string_view::npos ? 0 : int(at);
+}
+
+/// The element of a matrix, "view.projection[2].y", column-major.
+size_t element_of(std::string_view name) {
+  const size_t column = size_t(name[name.find('[') + 1] - '0');
+  return 4 * column + size_t(component_of(name));
+}
+
+uint32_t bits_of(float value) { return std::bit_cast<uint32_t>(value); }
+
+/// Clip space from the world, as the vertex shader has it before it is rounded.
+Matrix4 view_projection(const Camera& camera, const Pipeline& pipeline) {
+  const Viewport& v = pipeline.geometry.viewport;
+  const bool whole = v.width == 0 && v.height == 0;
+  const double aspect = whole ? double(pipeline.width) / pipeline.height : double(v.width) / v.height;
+  return clip_from_world(camera, aspect, clip_range(pipeline.geometry));
+}
+
+/// A value that holds for the whole frame; nothing where the name is no field of the view.
+std::optional<uint32_t> of_view(std::string_view name, const Scene& scene, const Pipeline& pipeline) {
+  const Camera& camera = scene.camera;
+  const glm::vec3 axis = view_axis(camera);
+  const int c = component_of(name);
+  if (starts(name, "view.eye")) return bits_of(camera.eye[c]);
+  if (starts(name, "view.axis")) return bits_of(-axis[c]);
+  if (starts(name, "view.size")) return bits_of(float(c == 0 ? pipeline.width : pipeline.height));
+  if (starts(name, "view.view_projection[")) return bits_of(float(view_projection(camera, pipeline)[element_of(name)]));
+  if (name == "view.time") return bits_of(0.0f);
+  if (name == "view.frame") return 0u;
+  return std::nullopt;
+}
+
+/// What a light program is given of a light that its own fields do not say: docs/arithmetic.md section 8, each made in
+/// double and rounded once.
+struct LightCone {
+  float cos_inner, cos_outer, scale, offset;
+  explicit LightCone(const Light& light) {
+    const double outer = cosine(double(light.cone_rad) + double(light.penumbra_rad));
+    const double inner = cosine(double(light.cone_rad)), width = 1.0 / std::max(0.001, inner - outer);
+    cos_inner = float(inner), cos_outer = float(outer), scale = float(width), offset = float(-outer * width);
+  }
+};
+
+uint32_t of_light(std::string_view name, const Light& light, uint32_t index) {
+  const int c = component_of(name);
+  const auto is = [name](std::string_view field) { return starts(name, field); };
+  if (name == "light.type") return uint32_t(light.type);
+  if (name == "light.index") return index;
+  if (is("light.position")) return bits_of(light.position[c]);
+  if (name == "light.range") return bits_of(light.range);
+  if (is("light.direction")) return bits_of(light.direction[c]);
+  if (is("light.color")) return bits_of(light.color[c]);
+  if (is("light.attenuation")) return bits_of(light.attenuation[c]);
+  if (is("light.ambient")) return bits_of(light.ambient[c]);
+  if (name == "light.cone") return bits_of(light.cone_rad);
+  if (name == "light.penumbra") return bits_of(light.penumbra_rad);
+  if (name == "light.cos_inner") return bits_of(LightCone(light).cos_inner);
+  if (name == "light.cos_outer") return bits_of(LightCone(light).cos_outer);
+  if (name == "light.cone_scale") return bits_of(LightCone(light).scale);
+  if (name == "light.cone_offset") return bits_of(LightCone(light).offset);
+  if (name == "light.spot_exponent") return bits_of(light.spot_exponent);
+  if (name == "light.shadow" || name == "light.cookie") return uint32_t(-1);
+  return 0;  // right, up: a light without an area
+}
+
+/// `parameters.gain` or a component of it, `parameters.tint.y`.
+std::optional<uint32_t> of_parameters(std::string_view name, const LightProgram& program) {
+  for (const ProgramParameter& given : program.parameters) {
+    const std::string whole = "parameters." + given.name;
+    if (!starts(name, whole)) continue;
+    const std::string_view rest = name.substr(whole.size());
+    const size_t c = rest.size() == 2 && rest[0] == '.' ? size_t(component_of(rest)) : 0;
+    if ((!rest.empty() && rest.size() != 2) || c >= given.value.size()) continue;
+    return bits_of(given.value[c]);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::shared_ptr<const Executable> executable_of(const LightProgram& program) {
+  static std::mutex mutex;
+  static std::map<std::string, std::shared_ptr<const Executable>> kept;
+  constexpr size_t kMost = 64;  // programs of a process; then all are compiled anew
+  if (program.text.empty())
+    throw Error(ErrorKind::usage, program.file, "the text of this light program is not here", "give it with its name");
+  const std::string key = program.file + '\n' + sha256_of(program.text);
+  const std::lock_guard lock(mutex);
+  if (const auto there = kept.find(key); there != kept.end()) return there->second;
+  if (kept.size() >= kMost) kept.clear();
+  programs::Program made = compiled(program);
+  const auto wanted = made.defines_reaches ? programs::Wanted::light_and_reaches : programs::Wanted::light;
+  return kept[key] = std::make_shared<Executable>(programs::executable_of(std::move(made), wanted));
+}
+
+Pipeline with_planes_of_program(const Pipeline& pipeline) {
+  if (!pipeline.light_program.used()) return pipeline;
+  const ProgramReads reads = reads_of(*executable_of(pipeline.light_program));
+  Pipeline out = pipeline;
+  LightModel& m = out.light_model;
+  m = {};
+  m.alpha_from_albedo = pipeline.light_model.alpha_from_albedo;
+  m.falloff = Falloff::none, m.diffuse = Diffuse::unclamped, m.cone = Cone::none;
+  m.order = TermOrder::albedo_last;  // unlit surfaces keep their colour as albedo
+  m.specular = reads.gloss || reads.metals ? Specular::blinn_phong : Specular::none;
+  m.specular_source = reads.metals ? SpecularSource::metallic_roughness : SpecularSource::material;
+  m.keeps_metals = reads.metals;
+  m.emission = reads.emission;
+  return out;
+}
+
+ProgramFrame::ProgramFrame(const Scene& scene, const Pipeline& pipeline)
+    : executable_(trueshade::executable_of(pipeline.light_program)),
+      reads_(reads_of(*executable_)),
+      constants_(*executable_) {
+  for (const Material& m : scene.materials) unlit_.push_back(m.unlit);
+  set_constants(scene, pipeline);
+  set_lights(scene);
+}
+
+void ProgramFrame::set_constants(const Scene& scene, const Pipeline& pipeline) {
+  const programs::Program& program = executable_->program;
+  const programs::Stage& stage = executable_->at(Rate::constant);
+  for (const ProgramParameter& given : pipeline.light_program.parameters)
+    if (std::none_of(program.inputs.begin(), program.inputs.end(),
+                     [&](const ProgramInput& input) { return starts(input.name, "parameters." + given.name); }))
+      throw Error(ErrorKind::usage, "--light-parameter", program.name + " reads no parameter '" + given.name + "'",
+                  "a member of its block Parameters");
+  for (size_t i = 0; i < stage.inputs.size(); ++i) {
+    const ProgramInput& input = program.inputs[stage.inputs[i]];
+    std::optional<uint32_t> value = of_view(input.name, scene, pipeline);
+    if (!value) value = of_parameters(input.name, pipeline.light_program);
+    if (!value)
+      throw Error(ErrorKind::usage, program.name, "nothing gives " + input.name,
+                  starts(input.name, "parameters.") ? "--light-parameter NAME=VALUE" : "another field");
+    constants_.set_input(i, *value);
+  }
+  programs::Registers registers(*executable_);
+  run_constants(*executable_, constants_, registers);
+}
+
+void ProgramFrame::set_lights(const Scene& scene) {
+  const programs::Stage& stage = executable_->at(Rate::light);
+  const size_t blocks = scene.lights.size() / programs::kBlockLanes + 1;
+  lights_ = std::make_unique<programs::LaneValues>(stage, blocks * programs::kBlockLanes);
+  light_planes_.resize(stage.inputs.size() * blocks);
+  for (size_t i = 0; i < stage.inputs.size(); ++i) {
+    float* const plane = light_planes_[i * blocks].lane;
+    const std::string& name = executable_->program.inputs[stage.inputs[i]].name;
+    std::fill_n(plane, blocks * programs::kBlockLanes, 0.0f);
+    for (size_t k = 0; k < scene.lights.size(); ++k) {
+      const uint32_t bits = of_light(name, scene.lights[k], uint32_t(k));
+      std::memcpy(plane + k, &bits, sizeof bits);
+    }
+    lights_->set_input(i, plane);
+  }
+  programs::Registers registers(*executable_);
+  run_lights(*executable_, constants_, *lights_, registers);
+}
+
+const void* ProgramFrame::plane_of(size_t input, const SurfaceTile& surface, const uint32_t* const pixels[2]) const {
+  const std::string_view name = executable_->program.inputs[executable_->at(Rate::surface).inputs[input]].name;
+  const int c = component_of(name);
+  if (starts(name, "surface.position")) return surface.plane[kPosition + c];
+  if (starts(name, "surface.normal")) return surface.plane[kNormal + c];
+  if (starts(name, "surface.albedo")) return surface.plane[kAlbedo + c];
+  if (starts(name, "surface.specular")) return surface.plane[kSpecular + c];
+  if (name == "surface.shininess") return surface.plane[kShininess];
+  if (name == "surface.metallic") return surface.plane[kSpecular];
+  if (name == "surface.roughness") return surface.plane[kSpecular + 1];
+  if (starts(name, "surface.emission")) return surface.plane[kEmission + c];
+  if (name == "surface.occlusion") return surface.plane[kOcclusion];
+  if (starts(name, "surface.uv")) return surface.plane[kUv + c];
+  if (name == "surface.object") return surface.object;
+  if (name == "surface.material") return surface.material;
+  return name == "surface.pixel_x" ? pixels[0] : pixels[1];
+}
+
+}  // namespace trueshade

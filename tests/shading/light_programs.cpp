@@ -1,0 +1,181 @@
+// Lights by a program of the user's own. The expected frames are the preset's, whose formula the program states.
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "core/error.h"
+#include "core/image_hash.h"
+#include "core/simd/simd_target.h"
+#include "scenes/builtin/builtin.h"
+#include "scenes/pipeline/presets.h"
+#include "shading/frame.h"
+#include "shading/program/cut_lights.h"
+#include "tests/catch.hpp"
+
+using namespace trueshade;
+
+namespace {
+
+// docs/arithmetic.md section 8: linear_range, clamped, blinn_phong of an even shininess, masked, factored.
+constexpr const char* kManyLights = R"glsl(
+vec3 light(Surface s, Light l, View v) {
+  vec3 N = normalize(s.normal), V = normalize(v.eye - s.position), D = l.position - s.position;
+  float d2 = dot(D, D), d = sqrt(d2), r = d2 > 0.0 ? 1.0 / d : 0.0, a = dot(N, D);
+  float f = 1.0 - d / l.range;
+  if (l.type == light_type_ambient) return s.albedo.rgb * l.color;
+  vec3 L = D * r;
+  if (l.type == light_type_directional) L = -l.direction, a = dot(N, L), r = 1.0, f = 1.0;
+  if (!(a > 0.0) || !(f > 0.0)) return vec3(0);
+  vec3 H = L + V;
+  float h2 = dot(H, H), t = max(dot(N, H), 0.0), x = h2 > 0.0 ? min((t * t) / h2, 1.0) : 0.0;
+  return (s.albedo.rgb * (a * r) + vec3(0.25 * pow(x, 16.0))) * (l.color * f);
+}
+bool reaches(Surface s, Light l, View v) {
+  return l.type != light_type_ambient && light(s, l, v) != vec3(0);
+}
+)glsl";
+
+Pipeline by_program(const char* text, std::vector<ProgramParameter> parameters = {}) {
+  Pipeline p;
+  p.width = 96, p.height = 64;
+  p.target = Format::rgba32f;
+  p.light_program = {"lights.glsl", text, {}, std::move(parameters)};
+  return p;
+}
+
+std::string error_of(const Scene& scene, const Pipeline& pipeline) {
+  try {
+    render_frame(scene, pipeline, {});
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+float pixel(const Frame& frame, int x, int y, int channel) { return float(frame.color.value(x, y, channel)); }
+
+}  // namespace
+
+TEST_CASE("A program that states a preset's formula draws the preset's frame, bit for bit") {
+  for (const char* name : {"city,objects=300,lights=60", "cornell", "atrium,lights=32"}) {
+    const Scene scene = builtin_scene(name);
+    Pipeline preset = by_program(kManyLights);
+    preset.light_program = {};
+    for (const Strategy strategy : {Strategy::deferred_loop, Strategy::forward_loop}) {
+      preset.strategy = strategy;
+      const Frame expected = render_frame(scene, preset, {}, std::vector<std::string>{"light.count"});
+      Pipeline asked = by_program(kManyLights);
+      asked.strategy = strategy;
+      for (const std::string_view target : simd_targets())
+        for (const int tile : {8, 32, 64}) {
+          Execution execution;
+          execution.simd = target, execution.tile = tile, execution.threads = tile == 8 ? 3 : 1;
+          const Frame frame = render_frame(scene, asked, execution, std::vector<std::string>{"light.count"});
+          CHECK(image_hash(frame.color) == image_hash(expected.color));
+          CHECK(image_hash(frame.aovs[0].image) == image_hash(expected.aovs[0].image));
+        }
+    }
+  }
+}
+
+TEST_CASE("The extents of lights bound a program, and culling by them changes nothing") {
+  const Scene scene = builtin_scene("city,objects=300,lights=60");
+  Pipeline unbounded = by_program(
+      "vec3 light(Surface s, Light l, View v) { return l.color / (1.0 + dot(l.position - s.position, l.position - "
+      "s.position)); }");
+  Pipeline ranged = unbounded;
+  ranged.light_volumes.point = ranged.light_volumes.spot = LightExtent::range;
+  Execution no_culling;
+  no_culling.light_culling = false;
+  const std::string cut = image_hash(render_frame(scene, ranged, {}).color);
+  CHECK(cut == image_hash(render_frame(scene, ranged, no_culling).color));
+  CHECK(cut != image_hash(render_frame(scene, unbounded, {}).color));
+  CHECK(cut_lights(scene, ranged).count > 0);
+  CHECK(cut_lights(scene, unbounded).count == 0);
+  Pipeline window = by_program(kManyLights);
+  window.light_volumes.point = window.light_volumes.spot = LightExtent::range;
+  CHECK(cut_lights(scene, window).count == 0);
+}
+
+TEST_CASE("start, finish, reaches and parameters are what the sum begins with, becomes and counts") {
+  const Scene scene = builtin_scene("cornell,lights=3");
+  const char* const text = R"glsl(
+layout(std140) uniform Parameters { float gain; vec3 tint; };
+vec3 light(Surface s, Light l, View v) { return vec3(float(l.index + 1u)); }
+bool reaches(Surface s, Light l, View v) { return l.index != 1u; }
+vec3 start(Surface s, View v) { return vec3(0.5, 0.0, float(s.pixel_x)); }
+vec4 finish(Surface s, View v, vec3 sum) { return vec4(sum * gain + tint, 0.25); }
+)glsl";
+  const Pipeline pipeline = by_program(text, {{"gain", {2}}, {"tint", {10, 20, 30}}});
+  const Frame frame = render_frame(scene, pipeline, {}, std::vector<std::string>{"light.count", "light.2"});
+  const int x = 48, y = 32;
+  CHECK(pixel(frame, x, y, 0) == (0.5f + 1 + 2 + 3) * 2 + 10);
+  CHECK(pixel(frame, x, y, 1) == (0.0f + 1 + 2 + 3) * 2 + 20);
+  CHECK(pixel(frame, x, y, 2) == (float(x) + 1 + 2 + 3) * 2 + 30);
+  CHECK(pixel(frame, x, y, 3) == 0.25f);
+  CHECK(frame.aovs[0].image.code(x, y, 0) == 2);
+  CHECK(float(frame.aovs[1].image.value(x, y, 0)) == 3);
+  Execution region;
+  region.region = {40, 30, 16, 8};
+  const Frame part = render_frame(scene, pipeline, region);
+  CHECK(pixel(part, x - 40, y - 30, 2) == pixel(frame, x, y, 2));
+  CHECK(error_of(scene, by_program(text, {{"gain", {2}}})).find("tint") != std::string::npos);
+  CHECK(error_of(scene, by_program(text, {{"gain", {2}}, {"tint", {1, 1, 1}}, {"gian", {1}}})).find("gian") !=
+        std::string::npos);
+}
+
+TEST_CASE("Metals, gloss, emission and unlit colours come to a program as materials have them") {
+  Scene scene = builtin_scene("cornell,lights=1");
+  for (Material& m : scene.materials) {
+    m.metallic = 0.25f, m.roughness = 0.75f, m.shininess = 12.0f;
+    m.specular_color = {0.1f, 0.2f, 0.3f}, m.emission = {4.0f, 5.0f, 6.0f};
+  }
+  const auto drawn = [&](const char* text) { return render_frame(scene, by_program(text), {}); };
+  const int x = 48, y = 32;
+  const Frame metals =
+      drawn("vec3 light(Surface s, Light l, View v) { return vec3(s.metallic, s.roughness, s.albedo.r); }");
+  CHECK(pixel(metals, x, y, 0) == 0.25f);
+  CHECK(pixel(metals, x, y, 1) == 0.75f);
+  CHECK(pixel(metals, x, y, 2) > 0.0f);
+  const Frame gloss =
+      drawn("vec3 light(Surface s, Light l, View v) { return vec3(s.specular.g, s.shininess, s.occlusion); }");
+  CHECK(pixel(gloss, x, y, 0) == 0.2f);
+  CHECK(pixel(gloss, x, y, 1) == 12.0f);
+  CHECK(pixel(gloss, x, y, 2) == 1.0f);
+  const Frame glow = drawn("vec3 light(Surface s, Light l, View v) { return s.emission; }");
+  CHECK(pixel(glow, x, y, 2) == 6.0f);
+  const Frame base = drawn("vec3 light(Surface s, Light l, View v) { return s.albedo.rgb; }");
+  for (Material& m : scene.materials) m.unlit = true;
+  const Frame unlit = drawn("vec3 light(Surface s, Light l, View v) { return vec3(7); }");
+  for (int c = 0; c < 3; ++c) CHECK(pixel(unlit, x, y, c) == pixel(base, x, y, c));
+  CHECK(error_of(scene, by_program("vec3 light(Surface s, Light l, View v) { return vec3(s.metallic * s.shininess); }"))
+            .find("share a plane") != std::string::npos);
+}
+
+TEST_CASE("NaN is stored as one pattern on every target") {
+  const Scene scene = builtin_scene("cornell,lights=2");
+  const Pipeline pipeline = by_program(
+      "vec3 light(Surface s, Light l, View v) { return vec3(sqrt(-1.0 - s.albedo.r), 0.0 / (l.range - l.range), 1.0); "
+      "}");
+  for (const std::string_view target : simd_targets()) {
+    Execution execution;
+    execution.simd = target;
+    const Frame frame = render_frame(scene, pipeline, execution);
+    uint32_t bits[2];
+    std::memcpy(bits, frame.color.texel(48, 32), sizeof bits);
+    CHECK(bits[0] == 0x7FC00000u);
+    CHECK(bits[1] == 0x7FC00000u);
+  }
+}
+
+TEST_CASE("What a light program cannot be is said with its place") {
+  const Scene scene = builtin_scene("cornell,lights=1");
+  CHECK(error_of(scene, by_program("vec3 light(Surface s, Light l, View v) {\n  return nothing;\n}"))
+            .find("lights.glsl:2") != std::string::npos);
+  CHECK(error_of(scene, by_program("float f;")).find("light") != std::string::npos);
+  Pipeline blended = by_program(kManyLights);
+  blended.strategy = Strategy::deferred_volumes;
+  CHECK(error_of(scene, blended).find("deferred-loop") != std::string::npos);
+  CHECK(error_of(scene, by_program("vec3 light(Surface s, Light l, View v) { return s.user[0].rgb; }"))
+            .find("surface.user") != std::string::npos);
+}
