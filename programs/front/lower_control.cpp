@@ -41,6 +41,7 @@ Scalars Lowering::call(uint32_t id, std::span<const uint32_t> arguments) {
   Frame next;
   next.function = &function;
   next.order = &order_of(function);
+  next.call = calls_++;
   next.call_mask = frames_.empty() ? b_.truth(true) : frame().mask;
   for (const uint32_t outliving : next.order->outlives_loop) kept_.erase(outliving);  // of an earlier call
   next.present = b_.truth(true);

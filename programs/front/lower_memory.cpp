@@ -84,7 +84,7 @@ void Lowering::variable(const SpirvInstruction& one, bool is_global) {
   if (pointer.kind != Kind::pointer || pointer.storage != storage) refuse_damage("a variable that is no pointer");
   Variable made;
   made.type = pointer.element;
-  made.frame = is_global ? 0 : frames_.size() - 1;
+  if (!is_global) made.frame = frames_.size() - 1, made.call = frame().call;
   if (m_.type(made.type).scalars == 0) refuse("has a variable that holds no values", "take it out");
   const std::string block = m_.name(made.type);
   const bool is_block = storage == SpirvStorage::uniform || storage == SpirvStorage::storage_buffer;
@@ -143,8 +143,16 @@ void Lowering::access_chain(const SpirvInstruction& one) {
   place.pointer = std::move(to);
 }
 
+/// A variable of a call that has not ended.
+Lowering::Variable& Lowering::variable_at(const Pointer& pointer) {
+  Variable& variable = variables_[pointer.variable];
+  if (variable.frame >= frames_.size() || frames_[variable.frame].call != variable.call)
+    refuse_damage("a pointer to a variable of a call that has ended");
+  return variable;
+}
+
 Scalars Lowering::load(const Pointer& pointer, uint32_t type) {
-  const Variable& variable = variables_.at(pointer.variable);
+  const Variable& variable = variable_at(pointer);
   return load_at(variable, pointer, 0, pointer.offset, m_.type(type).scalars);
 }
 
@@ -190,7 +198,7 @@ NodeId Lowering::mask_for(const Variable& variable) {
 }
 
 void Lowering::store(const Pointer& pointer, const Scalars& value) {
-  Variable& variable = variables_.at(pointer.variable);
+  Variable& variable = variable_at(pointer);
   if (variable.is_read_only) refuse_damage("a store into a uniform block");
   store_at(variable, pointer, 0, pointer.offset, value, mask_for(variable));
 }

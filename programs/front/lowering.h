@@ -48,7 +48,7 @@ class Lowering {
 
   struct Variable {
     uint32_t type = 0;
-    size_t frame = 0;  ///< the call that it belongs to
+    size_t frame = 0, call = 0;  ///< the call that it belongs to: its depth, and its number; of globals that of main
     Scalars scalars;
     std::vector<ProgramInput> input;  ///< of a uniform block, for each scalar
     bool is_read_only = false, is_result = false;
@@ -65,6 +65,7 @@ class Lowering {
   struct Frame {
     const SpirvFunction* function = nullptr;
     const BlockOrder* order = nullptr;
+    size_t call = 0;
     NodeId call_mask = 0;                  ///< of the caller
     NodeId mask = 0;                       ///< of the block
     NodeId present = 0;                    ///< lanes that have not returned
@@ -99,6 +100,7 @@ class Lowering {
   void store_at(Variable& variable, const Pointer& pointer, size_t level, uint32_t offset, const Scalars& value,
                 NodeId mask);
   NodeId mask_for(const Variable& variable);
+  Variable& variable_at(const Pointer& pointer);
   void declare_input(Variable& variable, uint32_t block);
   const Pointer& pointer_of(uint32_t id) const;
   void set_outputs();
@@ -149,7 +151,7 @@ class Lowering {
   std::vector<Variable> variables_;
   std::vector<Frame> frames_;
   std::map<uint32_t, BlockOrder> orders_;
-  size_t steps_ = 0;
+  size_t steps_ = 0, calls_ = 0;
   uint32_t line_ = 0;
 };
 
