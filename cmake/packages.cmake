@@ -109,7 +109,7 @@ which brings OpenImageIO, it reads EXR files and JPEG textures too."
 trueshade_package(dev libdevel "deferred renderer whose image is the same on every CPU: library"
 "Headers, static libraries and the CMake package of Trueshade:
 find_package(trueshade), trueshade::shading."
-  PACKAGE_DEPENDS "libglm-dev, libhwy-dev, libmeshoptimizer-dev, libtbb-dev, nlohmann-json3-dev, zlib1g-dev, libdeflate-dev"
+  PACKAGE_DEPENDS "glslang-dev, spirv-tools, libglm-dev, libhwy-dev, libmeshoptimizer-dev, libtbb-dev, nlohmann-json3-dev, zlib1g-dev, libdeflate-dev"
   PACKAGE_SUGGESTS "libopenimageio-dev")
 trueshade_package(python python "deferred renderer whose image is the same on every CPU: Python module"
 "The module trueshade: scenes from NumPy arrays, frames whose planes are
