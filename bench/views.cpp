@@ -137,7 +137,7 @@ void layers(benchmark::State& state, Glass what, std::string_view target) {
   const SimdScope simd(target);
   GlassTile t(what == Glass::lit ? TransparencyMode::after_lights : TransparencyMode::into_albedo);
   const Execution execution{.threads = 1, .simd = target};
-  const TransparentPass pass(t.scene, t.pipeline, execution);
+  const TransparentPass pass(t.scene, t.pipeline, nullptr, execution);
   const TileDraws all = t.all(), opaque = pass.opaque_draws(all, *t.work);
   draw_visibility(opaque, t.rect, true, *t.visible, t.counts);
   resolve_surfaces(opaque, t.rect, surface_planes(t.pipeline), t.pipeline.light_model, *t.visible, UvPlanes::omitted,
