@@ -1,8 +1,10 @@
 // The product's programs against the oracle's interpreter of SPIR-V: two readings of one contract, by two hands, which
 // share no code. The texts are made at random, and both are given the same bits.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "core/error.h"
@@ -25,19 +27,30 @@ std::string name_in_program(const std::string& member) {
   return member.substr(member.find(".ts_") + 4);
 }
 
-/// Scalars by the product's names: a vector's components, a matrix's columns, an array's vectors.
-void add_scalars(const std::string& name, const std::vector<uint32_t>& words, Numbers& out) {
+/// The product's name of each scalar of an input: "[2]" for an array's element, "[2]" for a matrix's column, ".y".
+void add_scalars(const testing::ProgramInput& input, const std::vector<uint32_t>& words, Numbers& out) {
+  const size_t columns = size_t(input.columns), rows = words.size() / columns / size_t(std::max(1, input.elements));
   for (size_t i = 0; i < words.size(); ++i) {
-    std::string scalar = name;
-    if (words.size() == 16) scalar += '[' + std::to_string(i / 4) + ']';
-    if (words.size() > 1) scalar += std::string(".") + "xyzw"[i % 4];
+    std::string scalar = name_in_program(input.name);
+    if (input.elements > 0) scalar += '[' + std::to_string(i / (columns * rows)) + ']';
+    if (columns > 1) scalar += '[' + std::to_string(i / rows % columns) + ']';
+    if (rows > 1) scalar += std::string(".") + "xyzw"[i % rows];
     out[scalar] = words[i];
   }
 }
 
-Numbers numbers_of(const oracle::SpirvScalars& scalars) {
+Numbers numbers_of(const oracle::SpirvScalars& scalars, const std::vector<testing::ProgramInput>& parameters) {
   Numbers out;
-  for (const auto& [member, words] : scalars) add_scalars(name_in_program(member), words, out);
+  for (const auto& inputs : {testing::interface_inputs(), std::span(parameters)})
+    for (const testing::ProgramInput& input : inputs) add_scalars(input, scalars.at(input.name), out);
+  return out;
+}
+
+Numbers outputs_of(const oracle::SpirvScalars& scalars) {
+  Numbers out;
+  for (const auto& [member, words] : scalars)
+    for (size_t i = 0; i < words.size(); ++i)
+      out[member.substr(member.find('.') + 1) + (words.size() > 1 ? std::string(".") + "xyzw"[i] : "")] = words[i];
   return out;
 }
 
@@ -83,10 +96,8 @@ Agreement agreement_of(uint64_t from, uint64_t to, std::string_view target) {
     using testing::InputsLike;
     for (const InputsLike like : {InputsLike::plain, InputsLike::mixed, InputsLike::any_bits}) {
       const oracle::SpirvScalars inputs = random_inputs(random, like, random_text.parameters);
-      Numbers expected;
-      for (const auto& [member, words] : run_spirv(module, inputs))
-        add_scalars(member.substr(member.find('.') + 1), words, expected);
-      compare(seed, expected, run_once(*program, numbers_of(inputs)), total);
+      compare(seed, outputs_of(run_spirv(module, inputs)),
+              run_once(*program, numbers_of(inputs, random_text.parameters)), total);
     }
     ++total.compared;
   }

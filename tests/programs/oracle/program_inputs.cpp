@@ -14,7 +14,7 @@ const std::vector<ProgramInput> kInputs = [] {
   std::vector<ProgramInput> all;
   const auto add = [&](const char* prefix, std::initializer_list<ProgramInput> members) {
     for (const ProgramInput& member : members)
-      all.push_back({prefix + member.name, member.base, member.scalars, member.kind});
+      all.push_back(member), all.back().name = prefix + member.name;
   };
   add("TsSurface.ts_surface.", {{"position", 'f', 3, "position"},
                                 {"normal", 'f', 3, "unit"},
@@ -32,7 +32,7 @@ const std::vector<ProgramInput> kInputs = [] {
                                 {"material", 'u', 1, "count"},
                                 {"pixel_x", 'u', 1, "count"},
                                 {"pixel_y", 'u', 1, "count"},
-                                {"user", 'f', 16, "position"}});
+                                {"user", 'f', 16, "position", 4}});
   add("TsLight.ts_light.",
       {{"type", 'u', 1, "count"},        {"index", 'u', 1, "count"},          {"position", 'f', 3, "position"},
        {"range", 'f', 1, "length"},      {"direction", 'f', 3, "unit"},       {"color", 'f', 3, "share"},
@@ -40,12 +40,12 @@ const std::vector<ProgramInput> kInputs = [] {
        {"penumbra", 'f', 1, "share"},    {"cos_inner", 'f', 1, "share"},      {"cos_outer", 'f', 1, "share"},
        {"cone_scale", 'f', 1, "length"}, {"cone_offset", 'f', 1, "position"}, {"spot_exponent", 'f', 1, "exponent"},
        {"right", 'f', 3, "position"},    {"up", 'f', 3, "position"},          {"shadow", 'i', 1, "index"},
-       {"cookie", 'i', 1, "index"},      {"user", 'f', 16, "position"}});
+       {"cookie", 'i', 1, "index"},      {"user", 'f', 16, "position", 4}});
   add("TsView.ts_view.", {{"eye", 'f', 3, "position"},
                           {"axis", 'f', 3, "unit"},
-                          {"view", 'f', 16, "matrix"},
-                          {"projection", 'f', 16, "matrix"},
-                          {"view_projection", 'f', 16, "matrix"},
+                          {"view", 'f', 16, "matrix", 0, 4},
+                          {"projection", 'f', 16, "matrix", 0, 4},
+                          {"view_projection", 'f', 16, "matrix", 0, 4},
                           {"size", 'f', 2, "pixels"},
                           {"time", 'f', 1, "length"},
                           {"frame", 'u', 1, "count"}});

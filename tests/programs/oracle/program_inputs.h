@@ -14,7 +14,8 @@ struct ProgramInput {
   std::string name;  ///< "TsSurface.ts_surface.position"
   char base = 'f';   ///< f, i or u: floats, signed or unsigned integers
   int scalars = 1;
-  const char* kind = "";  ///< what plain scenes have there: see plain_value()
+  const char* kind = "";          ///< what plain scenes have there: see plain_value()
+  int elements = 0, columns = 1;  ///< of an array (0: none), and of a matrix or of the array's matrices
 };
 
 /// All members of Surface, Light and View, and the sum, in the order of the contract.

@@ -77,7 +77,8 @@ class RandomFile : RandomStatements {
       program.parameters.push_back({"Parameters." + made, type.base, type.scalars() * std::max(1, elements),
                                     type.base == 'f'   ? "position"
                                     : type.base == 'i' ? "index"
-                                                       : "count"});
+                                                       : "count",
+                                    elements, type.columns});
     }
     close(";");
   }
