@@ -211,11 +211,11 @@ HWY_INLINE VD acos_of(VD x) {
   return hn::IfThenElse(hn::Gt(hn::Abs(x), one), hn::NaN(DD()), result);
 }
 
-/// Below 2^-8 hyperbolic functions are x + x^3 / `divisor`.
+/// Below 2^-8 hyperbolic functions are x + x^3 / `divisor`. They have the sign of x, also where x is 0.
 HWY_INLINE VD with_cubic(VD x, double divisor, VD elsewhere) {
   const VD cube = hn::Mul(hn::Mul(x, x), x);
   const VD small = hn::Add(x, hn::Div(cube, number(divisor)));
-  return hn::IfThenElse(hn::Lt(hn::Abs(x), number(0x1p-8)), small, hn::CopySign(elsewhere, x));
+  return hn::CopySign(hn::IfThenElse(hn::Lt(hn::Abs(x), number(0x1p-8)), small, elsewhere), x);
 }
 HWY_INLINE VD exp_of_size(VD x) { return exp2_of(hn::Mul(hn::Abs(x), number(kLog2OfE))); }
 

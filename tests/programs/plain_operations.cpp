@@ -97,6 +97,7 @@ double plain_hyperbolic(Op op, double x) {
   const double a = std::abs(x), cube = (x * x) * x;
   const bool small = a < 0x1p-8;
   const double e = plain_exp2(a * kLog2EPlain);
+  if (x == 0 && op != Op::cosh && op != Op::acosh) return x;  // the sign of a zero stays
   switch (op) {
     case Op::sinh:
       return small ? x + cube / 6 : std::copysign((e - 1 / e) * 0.5, x);
