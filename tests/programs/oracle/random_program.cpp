@@ -1,6 +1,7 @@
 #include "tests/programs/oracle/random_program.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "tests/programs/oracle/random_statements.h"
 
@@ -62,6 +63,7 @@ class RandomFile : RandomStatements {
       const std::string made = name("g");
       line(type.name() + " " + made + (make_.one_in(2) ? ";" : " = " + make_.literal(type) + ";"));
       declare(made, type, true);
+      globals_.emplace_back(made, type);
     }
   }
 
@@ -153,6 +155,8 @@ class RandomFile : RandomStatements {
     }
     open(head + ")");
     result_ = result;
+    const bool of_pixel = function == "start" || function == "finish";
+    if (of_pixel) written_anew();
     own_integer();
     if (!mark_of_file_) line("uint mark = 2166136261u;");
     marked_ = true;
@@ -168,6 +172,12 @@ class RandomFile : RandomStatements {
       line("return " + returned() + ";");
     close();
     marked_ = mark_of_file_;
+  }
+
+  /// Variables of the whole file, where what `light` left in them would make a pixel depend on a light.
+  void written_anew() {
+    for (const auto& [variable, type] : globals_) line(variable + " = " + make_.literal(type) + ";");
+    if (mark_of_file_) line("mark = 2166136261u;");
   }
 
   /// One operation after the other, mostly of what the program reads, each marked: more of them than among statements.
@@ -208,6 +218,8 @@ class RandomFile : RandomStatements {
     }
     return text + ")";
   }
+
+  std::vector<std::pair<std::string, GlslType>> globals_;
 };
 
 }  // namespace
