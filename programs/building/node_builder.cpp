@@ -143,15 +143,21 @@ NodeId NodeBuilder::select(NodeId condition, NodeId a, NodeId b) {
   return add(choice);
 }
 
-/// Whether the mask, which is a chain of `and`, says that the condition has that value. Long chains are not followed to
-/// their end, which leaves a choice in the program that could be left out.
+/// Whether the mask, which is a chain of `and`, says that the condition has that value: by a part of the chain that is
+/// the condition, or by what the condition is made of. Long chains are not followed to their end, which leaves a choice
+/// in the program that could be left out.
 bool NodeBuilder::implies(NodeId mask, NodeId condition, bool value) const {
+  int steps = 256;
+  return implies(mask, condition, value, steps);
+}
+
+bool NodeBuilder::implies(NodeId mask, NodeId condition, bool value, int& steps) const {
   const bool is_not = node(condition).op == Op::b_not;
   if (is_not) condition = node(condition).operand[0], value = !value;
   NodeId pending[32];
   size_t count = 0;
   pending[count++] = mask;
-  for (int steps = 0; count > 0 && steps < 64; ++steps) {
+  for (int most = 64; count > 0 && most > 0 && steps > 0; --most, --steps) {
     const NodeId at = pending[--count];
     if (at == condition && value) return true;
     if (node(at).op == Op::b_not && node(at).operand[0] == condition && !value) return true;
@@ -159,7 +165,10 @@ bool NodeBuilder::implies(NodeId mask, NodeId condition, bool value) const {
     for (const NodeId part : node(at).operands())
       if (count < 32) pending[count++] = part;
   }
-  return false;
+  const Op op = node(condition).op;
+  if ((op != Op::b_and && op != Op::b_or) || steps <= 0) return false;
+  const auto says = [&](size_t i) { return implies(mask, node(condition).operand[i], value, steps); };
+  return value == (op == Op::b_and) ? says(0) && says(1) : says(0) || says(1);
 }
 
 NodeId NodeBuilder::under(NodeId mask, NodeId value) const {

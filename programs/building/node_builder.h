@@ -61,6 +61,7 @@ class NodeBuilder {
   NodeId simpler(Op op, NodeId a, NodeId b) const;
   NodeId without_known(NodeId mask, NodeId condition);
   bool implies(NodeId mask, NodeId condition, bool value) const;
+  bool implies(NodeId mask, NodeId condition, bool value, int& steps) const;
 
   const std::string where_;
   const size_t most_nodes_;

@@ -265,4 +265,29 @@ TEST_CASE("Loops of constant length leave no operation on integers behind") {
   CHECK(light_of(program, {{"surface.metallic", 2.0f}})[0] == 2.0f * 867.0f);
 }
 
+TEST_CASE("A loop ends by its bound whatever numbers stand behind it") {
+  // A switch has its numbers among the ids in the module: here all ids are among them.
+  std::string body = "int n = 0;\nfor (int i = 4; i >= 0; --i) {\n  if (s.uv.x * float(4 - i) > 1.0 ^^ s.uv.y > 2.0) break;\n"
+                     "  n++;\n}\nfloat r = 3.0;\nswitch (n) {\n";
+  for (int number = 1; number < 300; ++number) body += "case " + std::to_string(number) + ":\n";
+  const Program program = program_of_light(body + "  r = 4.0;\n}\nreturn vec3(n, r, 0);");
+  CHECK(light_of(program, {{"surface.uv.x", 0.3f}}) == std::vector<float>{4, 4, 0});
+  CHECK(light_of(program, {{"surface.uv.x", 0.0f}, {"surface.uv.y", 1.0f}}) == std::vector<float>{5, 4, 0});
+  CHECK(light_of(program, {{"surface.uv.y", 3.0f}}) == std::vector<float>{0, 3, 0});
+}
+
+TEST_CASE("A loop ends by its bound where lanes have returned before it, and where its condition is made of others") {
+  const Program branched = program_of_light(
+      "if (s.uv.x > 1.0) return vec3(7); int n = 0; if (s.uv.y > 0.5) { bool b = s.normal.x > 0.0; int i = 0; while (i "
+      "< 1 && b) { i++; n++; } } return vec3(n);");
+  CHECK(light_of(branched, {{"surface.uv.y", 1.0f}, {"surface.normal.x", 1.0f}})[0] == 1);
+  CHECK(light_of(branched, {{"surface.uv.y", 1.0f}})[0] == 0);
+  CHECK(light_of(branched, {{"surface.uv.x", 2.0f}, {"surface.uv.y", 1.0f}, {"surface.normal.x", 1.0f}})[0] == 7);
+  const Program indexed = program_of_light(
+      "int n = 0; while (n < 2 && (bool(v.view[s.pixel_x][1]) && bool(v.view[1][3]))) { n++; v.view[2][1] = 1.0; } "
+      "return vec3(n);");
+  CHECK(light_of(indexed, {{"view.view[0].y", 1.0f}, {"view.view[1].w", 1.0f}})[0] == 2);
+  CHECK(light_of(indexed, {{"view.view[0].y", 1.0f}})[0] == 0);
+}
+
 }  // namespace trueshade::programs
