@@ -89,6 +89,7 @@ void call_sha(Bytes& out) {
   out.put(sha.progress());
   out.put(sha.hex());
   out.put(other.hex());
+  out.put(sha256_of("abc"));
 }
 
 void call_extents(Bytes& out) {
@@ -97,6 +98,15 @@ void call_extents(Bytes& out) {
   extent.add({-1e-320, 0.2});
   out.put(extent.least);
   out.put(extent.most);
+}
+
+void call_light_program(Bytes& out) {
+  Pipeline p;
+  p.light_program.file = "lights.glsl";
+  p.light_program.parameters.push_back({"gain", {0.1f, 1e-40f}});
+  out.put(int(p.light_program.used()));
+  out.put(pipeline_json(p));
+  out.put_error([&] { require_no_light_program(p, "a test"); });
 }
 
 void call_regions(Bytes& out) {
@@ -242,16 +252,18 @@ constexpr Row kRows[] = {
      }},
     {"core/image.h", "image_hash", [](Bytes& out) { out.put(image_hash(floats())); }},
     {"core/numeric_profile.h", "profile_name profile_from_name", call_names},
-    {"core/sha256.h", "Sha256 update hex progress resume", call_sha},
+    {"core/sha256.h", "Sha256 update hex progress resume sha256_of", call_sha},
     {"core/simd/simd_target.h", "simd_targets built_simd_targets SimdScope", call_simd},
     {"scenes/pipeline/image_view.h", "view_from_name", call_names},
     {"scenes/pipeline/light_model.h", "reads_specular_plane takes_gloss shows_unlit maps_metals", call_light_model},
+    {"scenes/pipeline/light_program.h", "used", call_light_program},
     {"scenes/pipeline/presets.h", "presets preset_pipeline default_pipeline", call_light_model},
     {"scenes/pipeline/pipeline.h",
      "pipeline_from_json pipeline_json validate name_of blends_lights is_forward surface_planes "
      "made_unit_at_vertex made_unit_at_fragment",
      call_pipeline},
     {"scenes/pipeline/pipeline.h", "validate", call_refusals},
+    {"scenes/pipeline/pipeline.h", "require_no_light_program", call_light_program},
     {"scenes/pipeline/pipeline.h", "whole drawn_region drawn_pixels validate_region validate_drawn_size", call_regions},
     {"scenes/pipeline/post_chain.h", "active", call_post_chain},
     {"shading/output/extent.h", "add", call_extents},

@@ -267,8 +267,10 @@ TEST_CASE("Loops of constant length leave no operation on integers behind") {
 
 TEST_CASE("A loop ends by its bound whatever numbers stand behind it") {
   // A switch has its numbers among the ids in the module: here all ids are among them.
-  std::string body = "int n = 0;\nfor (int i = 4; i >= 0; --i) {\n  if (s.uv.x * float(4 - i) > 1.0 ^^ s.uv.y > 2.0) break;\n"
-                     "  n++;\n}\nfloat r = 3.0;\nswitch (n) {\n";
+  std::string body =
+      "int n = 0;\nfor (int i = 4; i >= 0; --i) {\n"
+      "  if (s.uv.x * float(4 - i) > 1.0 ^^ s.uv.y > 2.0) break;\n"
+      "  n++;\n}\nfloat r = 3.0;\nswitch (n) {\n";
   for (int number = 1; number < 300; ++number) body += "case " + std::to_string(number) + ":\n";
   const Program program = program_of_light(body + "  r = 4.0;\n}\nreturn vec3(n, r, 0);");
   CHECK(light_of(program, {{"surface.uv.x", 0.3f}}) == std::vector<float>{4, 4, 0});
