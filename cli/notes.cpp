@@ -110,9 +110,9 @@ std::string cut_line(const Scene& scene, const Pipeline& pipeline) {
   if (cut.count == 0) return {};
   char added[32];
   std::snprintf(added, sizeof added, "%.3g", double(cut.added));
-  return counted(cut.count, "light ends", "lights end") +
-         " at its range, where the light program still adds something: light " + std::to_string(cut.light) + " up to " +
-         added + " on a white surface (light_volumes.point and spot unbounded draw it)";
+  return counted(cut.count, "light ends at its range", "lights end at their range") +
+         ", where the light program still adds something: light " + std::to_string(cut.light) + " up to " + added +
+         " on a white surface (light_volumes.point and spot unbounded draw it)";
 }
 
 std::string boxes_line(const Scene& scene, ImageView view) {
