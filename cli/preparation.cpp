@@ -69,7 +69,7 @@ uint64_t file_memory(const Pipeline& pipeline, const PictureRegion& region, std:
   const uint64_t texel = texel_bytes(pipeline), shown = 4 + 3, pixels = drawn_pixels(pipeline, region);
   uint64_t largest = 0;
   for (const std::string& path : paths)
-    largest = std::max(largest, has_ending(path, ".html")  ? 100 * std::max(shown, texel) * pixels
+    largest = std::max(largest, has_ending(path, ".html") ? 100 * std::max(shown, texel) * pixels
                                 : has_ending(path, ".exr") ? kKeptOf100 * picture_memory(pipeline, region, planes)
                                                            : kKeptOf100 * texel * pixels);
   return largest / 100;
