@@ -6,7 +6,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cmake -S "$1" -B "$work" -G Ninja -DCMAKE_CXX_COMPILER="$2" -DTRUESHADE_PARTS=picture >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 ninja -C "$work" -n trueshade_picture >/dev/null
-if found=$(grep -iE '^(OIIO|EPOXY|embree|meshoptimizer)' "$work/CMakeCache.txt"); then
+if found=$(grep -iE '^(OIIO|EPOXY|embree|meshoptimizer|TRUESHADE_GLSLANG)' "$work/CMakeCache.txt"); then
   printf 'packages that the picture does not need:\n%s\n' "$found"
   exit 1
 fi
