@@ -106,6 +106,8 @@ void set_light_program(const PipelineOptions& options, LightProgram& program) {
     return;
   }
   const Bytes bytes = read_user_file(*options.light_shader, kMaxProgramBytes, "");
+  if (bytes.empty())
+    throw Error(ErrorKind::bad_input, *options.light_shader, "is empty", "GLSL that defines light(), or SPIR-V");
   const std::string expected = program.sha256;
   program.file = *options.light_shader;
   program.text = {reinterpret_cast<const char*>(bytes.data()), bytes.size()};

@@ -67,6 +67,8 @@ TEST_CASE("What is wrong with a light program is said with its place or its opti
   CHECK(has(needs.err, "parameters.gain"));
   CHECK(with({"--light-shader", "needs.glsl", "--light-parameter", "gain=much"}).exit_code == 2);
   CHECK(with({"--light-parameter", "gain=1"}).exit_code == 2);
+  write("empty.glsl", "");
+  CHECK(with({"--light-shader", "empty.glsl"}).exit_code == 3);
   CHECK(with({"--light-shader", "absent.glsl"}).exit_code == 5);
   const Outcome blends =
       with({"--light-shader", "needs.glsl", "--light-parameter", "gain=1", "--strategy", "deferred-volumes"});
