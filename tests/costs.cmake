@@ -62,6 +62,10 @@ trueshade_slow(10
   "diagnosis:Lights that are one to five thousandths too bright or reach too far are named in planes of halves"
   "gl:The same frames, replayed in OpenGL 4.5 and OpenGL ES 3.1, are judged without a violation")
 trueshade_slow(4
+  "judge:Frames that were convicted though a device may draw them are not"
+  "judge:Frames of SwiftShader's that were convicted though it may draw them are not"
+  "light_functions:the oracle's functions of one float at 160,000 floats each"
+  "program_agreement:60 random light programs have the oracle's bits on every SIMD target"
   "judge:Maps of which one is decoded after it is filtered, and the other before, are convicted together, not apart"
   "cli:wherever memory ends, the command ends in order"
   "allocations:A frame after the first asks for the memory of its picture, and a few times more, whatever the scene"
