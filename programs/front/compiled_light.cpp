@@ -71,7 +71,7 @@ std::string main_text(const CompiledLight& has) {
 CompiledLight compiled_light(const std::string& file, const std::string& text, const ProgramLimits& limits) {
   if (text.size() > limits.source)
     throw Error(ErrorKind::limit, file, "has more than " + std::to_string(limits.source) + " bytes of GLSL",
-                "make it shorter, or raise the limit of bytes");
+                "make it shorter");
   if (text.find('\0') != std::string::npos)
     throw Error(ErrorKind::bad_input, file, "is no text", "give GLSL as .glsl, SPIR-V as .spv");
   CompiledLight out;

@@ -65,7 +65,7 @@ Program program_of(const std::string& file, std::vector<uint32_t> words, const P
                    bool main_is_ours) {
   if (words.size() > limits.words)
     throw Error(ErrorKind::limit, file, "has more than " + std::to_string(limits.words) + " words of SPIR-V",
-                "make it shorter, or raise the limit of words");
+                "make it shorter");
   validate_spirv(file, words);
   const std::string sha256 = sha256_of(words);
   Program program = lowered(file, std::move(words), limits, main_is_ours);
@@ -73,7 +73,7 @@ Program program_of(const std::string& file, std::vector<uint32_t> words, const P
   program.sha256 = sha256;
   if (program.nodes.size() > limits.nodes)
     throw Error(ErrorKind::limit, file, "has " + std::to_string(program.nodes.size()) + " operations on scalars",
-                "make it shorter, or raise the limit of nodes");
+                "make it shorter");
   set_rates(program);
   const std::string fault = fault_of_outputs(program);
   if (!fault.empty()) throw Error(ErrorKind::bad_input, file, fault, "see programs/light_interface.glsl");

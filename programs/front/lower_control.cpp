@@ -85,7 +85,7 @@ void Lowering::run_loop(size_t header) {
   for (size_t trips = 0; !frame().edges[header].empty(); ++trips) {
     if (trips > limits_.trips)
       throw Refusal{"has a loop that does not end for certain within " + std::to_string(limits_.trips) + " trips",
-                    "give it a constant bound, or raise the limit of trips", ErrorKind::limit};
+                    "give it a constant bound", ErrorKind::limit};
     NodeId mask = frame().edges[header][0].mask;
     for (const Edge& edge : frame().edges[header]) mask = b_.either(mask, edge.mask);
     if (go_on > header) frame().constructs.push_back({header, go_on, mask});  // where `continue` leads
