@@ -85,7 +85,7 @@ inline Bounded positive(const Bounded& x) { return x.value > 0 ? x : Bounded{0, 
 
 /// x^s for 0 <= low <= x <= high, s >= 0, as exp2(s * log2 x) may be computed. log2 errs by 3 ulp outside [0.5, 2], by
 /// 2^-21 inside; the product by one rounding; exp2 by 3 + 2|y| ulp, y = s log2 x (GLSL 4.60, 4.7.1). Exact_pow: one
-/// rounding.
+/// rounding. Else the error is infinite where the power may be beyond the largest float.
 Bounded power(const Arithmetic& a, double low, double x, double high, double s);
 
 }  // namespace trueshade::oracle

@@ -158,7 +158,7 @@ HWY_INLINE Both power(const Arithmetic& a, V low, V x, V high, int s, M& left) {
   const V natural = hn::Max(times(hn::Sub(inverse, low), 0.5), plus(high, -1));
   const V exponent = plus(times(natural, kOurs / kLn2), plus(r, r));
   const V y = times(exponent, double(s));
-  M good = hn::And(hn::Lt(t, all(0.5)), hn::Lt(value, all(1e60)));
+  M good = hn::And(hn::Lt(t, all(0.5)), hn::Lt(value, all(0x1p120)));
   if (!a.exact_pow) {
     const M near_one = hn::And(hn::Ge(low, all(0.5)), hn::Le(high, all(2)));
     const V log2_error = hn::IfThenElse(near_one, all(0x1p-21 * s), times(y, 3 * kUlp));

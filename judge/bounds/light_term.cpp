@@ -330,6 +330,7 @@ Bounded LightSum::specular_of(const Bounded3& to_light, const Bounded& n_l, bool
   if (!exact_ && s == 0 && low <= 0 && model_.specular == Specular::blinn_phong && !reads_specular_plane(model_))
     undefined = true;
   const Bounded shine = power_of(low, value, high);
+  if (shine.error == HUGE_VAL) undefined = true;
   if (!model_.specular_masked || !adds_unlit_ || n_l.low() > 0) return shine;
   if (n_l.high() <= 0) return {};
   return {n_l.value > 0 ? shine.value : 0, shine.high()};

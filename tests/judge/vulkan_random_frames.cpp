@@ -107,6 +107,7 @@ TEST_CASE("Frames that were convicted though a device may draw them are not") {
   judged(931176);  // a blend that reads an alpha of two bits
   judged(931186);  // glass of one value upon values that differ
   judged(940515);  // a light that may be at the surface, whose window is 0 in the middle of its range
+  judged(950765);  // a power beyond the largest float
 }
 
 TEST_CASE("Frames of SwiftShader's that were convicted though it may draw them are not") {
