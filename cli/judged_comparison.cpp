@@ -96,7 +96,7 @@ class SceneJudge {
     validate(v_.pipeline);
     if (v_.pipeline.view != ImageView::lit || v_.pipeline.post.active())
       throw not_judged("a view, and a picture behind a post chain, have no legal sets");
-    if (v_.pipeline.light_program.used()) throw not_judged("the judge has no legal sets of a light program's picture");
+    if (v_.pipeline.light_program.used()) throw not_judged("a light program is not in the picture's file: validate takes its file");
     fit_lights_of_ours(scene_, v_.pipeline.light_model);
     constexpr uint64_t kPixel = 480;  // bytes, as of validate
     check_memory(scene_, v_.pipeline, {}, {}, uint64_t(v_.pipeline.width) * uint64_t(v_.pipeline.height) * kPixel);

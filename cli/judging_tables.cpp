@@ -89,6 +89,7 @@ CommandTable validate_table(ValidationOptions& options, ValidationTexts& texts) 
   add_size(table, texts.size);
   add_time(table, texts.time);
   add_layers(table, options);
+  add_light_program(table, options);
   add_strategy(table, texts.strategy);
   add_limits(table, options.limits);
   table.details =

@@ -26,6 +26,7 @@
 #include "scenes/files/content/scene_files.h"
 #include "scenes/pipeline/fit_lights.h"
 #include "scenes/scene.h"
+#include "shading/program/program_frame.h"
 
 namespace trueshade {
 namespace {
@@ -147,7 +148,7 @@ bool judge_opengl(const ValidationOptions& options) {
   activity->now("reading the scene");
   Scene scene = scene_of_options(options.scene, options.limits);
   set_time(scene, options.time);
-  v.pipeline = pipeline_of(options, scene);
+  v.pipeline = with_planes_of_program(pipeline_of(options, scene));
   fit_lights_of_ours(scene, v.pipeline.light_model);
   if (files && !options.size) v.pipeline.width = files->width(), v.pipeline.height = files->height();
   check_memory(scene, v.pipeline, {}, {}, judging_memory(options, v.pipeline));

@@ -15,10 +15,7 @@ double own_error(const Arithmetic& a, bool near_one, double exponent, double y, 
 
 /// x^s where x is not known to a good part of itself: both ends powered.
 Bounded power_of_ends(const Arithmetic& a, double low, double x, double high, double s) {
-  const auto error_at = [&](double v) {
-    const double exponent = std::fabs(std::log2(v));
-    return own_error(a, v >= 0.5 && v <= 2, exponent, s * exponent, s);
-  };
+  const auto error_at = [&](double v) { return relative_power_error(a, v, s); };
   const double top = std::pow(high, s) * (1 + error_at(high)), value = x > 0 ? std::pow(x, s) : 0;
   const double bottom = low > 0 ? std::pow(low, s) * std::max(0.0, 1 - error_at(low)) : 0;
   return {value, std::max(top - value, value - bottom) + kSmallestFloat};
@@ -31,6 +28,11 @@ Bounded within_floats(const Arithmetic& a, const Bounded& x) {
 }
 
 }  // namespace
+
+double relative_power_error(const Arithmetic& a, double x, double s) {
+  const double exponent = std::fabs(std::log2(x));
+  return own_error(a, x >= 0.5 && x <= 2, exponent, s * exponent, s);
+}
 
 Bounded power(const Arithmetic& a, double low, double x, double high, double s) {
   if (s == 0) return {1, 0};  // x = 0 is the caller's matter: GLSL leaves 0^0 undefined

@@ -88,4 +88,7 @@ inline Bounded positive(const Bounded& x) { return x.value > 0 ? x : Bounded{0, 
 /// rounding. Else the error is infinite where the power may be beyond the largest float.
 Bounded power(const Arithmetic& a, double low, double x, double high, double s);
 
+/// The part of x^s that the power of an exact x > 0 errs by.
+double relative_power_error(const Arithmetic& a, double x, double s);
+
 }  // namespace trueshade::oracle

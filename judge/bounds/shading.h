@@ -19,6 +19,9 @@ struct ShadedSurface {
   Bounded3 specular{}, emission{};            ///< where the model reads them
   double shininess = 0, shininess_error = 0;  ///< an integer; any one within the error, where a map leaves several
   Bounded ambient_share{1, 0};                ///< what arrives of ambient light, where the model reads emission
+  std::array<Bounded, 2> uv{};                ///< the rest where a light program reads it
+  uint32_t object = 0, material = 0;          ///< from 1 on
+  std::array<int, 2> pixel{};                 ///< column and row from the lower left
 };
 
 /// A light whose comparison with its threshold may go either way: what the other branch adds to the sum.

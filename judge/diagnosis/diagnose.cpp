@@ -123,7 +123,8 @@ std::vector<Finding> diagnose(const Scene& scene, const Pipeline& asked, const P
     planes = plane_findings(scene, pipeline, profile, capture, *surfaces, only.planes);
   std::vector<Finding> findings;
   const bool asks_lit = supposed.empty() || !only.picture.empty() || !only.glass.empty();
-  if (lit != nullptr && asks_lit && (!supposed.empty() || is_suspicious(*lit))) {
+  const bool by_model = !pipeline.light_program.used();  // the faults of pictures are those of LightModel's terms
+  if (by_model && lit != nullptr && asks_lit && (!supposed.empty() || is_suspicious(*lit))) {
     const Shown shown{scene, pipeline, profile, capture, *lit};
     const std::unique_ptr<PictureCase> picture = picture_of(shown, planes);
     if (supposed.empty() || !only.picture.empty()) findings = picture_findings(*picture, only.picture);

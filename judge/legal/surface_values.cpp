@@ -117,9 +117,15 @@ Range SurfaceValues::metallic() const {
   return t != nullptr ? product({given, given, given}, t[2], projector_.profile()) : Range{given, given, given};
 }
 
+Range SurfaceValues::roughness() const {
+  const double given = double(material_->roughness);
+  return rough() ? product({given, given, given}, texel(kMetalMap)[1], projector_.profile())
+                 : Range{given, given, given};
+}
+
 Range SurfaceValues::albedo(const Range& base) const {
   if (unlit_) return {};
-  if (!maps_metals(model_)) return base;
+  if (!maps_metals(model_) || model_.keeps_metals) return base;
   if (!rough()) return tinted(base, double(1.0f - material_->metallic));
   const Range m = metallic();
   return product(base, {1 - m.value, 1 - m.high - roundoff(), 1 - m.low + roundoff()}, projector_.profile());
@@ -129,6 +135,7 @@ Range SurfaceValues::albedo(const Range& base) const {
 /// looked-up metallic. Both factors of the latter are in every term once, so its extremes are at the corners.
 Range SurfaceValues::specular(const Range& base, int k) const {
   if (unlit_) return {};
+  if (model_.keeps_metals) return k == 0 ? metallic() : k == 1 ? roughness() : Range{};
   const double given = double(material_->specular_color[k]), least = double(0.04f);
   if (const Range* t = texel(kSpecularMap)) return product({given, given, given}, t[k], projector_.profile());
   if (!maps_metals(model_)) return {given, given, given};
@@ -143,6 +150,7 @@ Range SurfaceValues::specular(const Range& base, int k) const {
 }
 
 Range SurfaceValues::shininess() const {
+  if (model_.keeps_metals) return {};
   if (!maps_metals(model_))
     return {double(material_->shininess), double(material_->shininess), double(material_->shininess)};
   const auto integer = [](double exponent) { return std::clamp(std::rint(exponent), 1.0, 8192.0); };
@@ -156,7 +164,7 @@ Range SurfaceValues::shininess() const {
     const Bounded r{std::max(roughness, 0.04), 0x1p-24 * 0.04}, r2 = product(a, r, r);
     return difference(a, quotient(a, {2, 0}, product(a, r2, r2)), {2, 0});
   };
-  const Range r = product({given, given, given}, texel(kMetalMap)[1], projector_.profile());
+  const Range r = roughness();
   return {integer(2 / std::pow(std::max(r.value, 0.04), 4) - 2), integer(exponent(r.high).low()),
           integer(exponent(r.low).high())};
 }

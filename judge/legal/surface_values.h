@@ -57,6 +57,7 @@ class SurfaceValues {
   Range tinted(const Range& r, double tint) const;
   void bend(const std::array<Range, 4>& bumps);
   Range metallic() const;
+  Range roughness() const;
   double roundoff() const;
 
   const Projector& projector_;

@@ -38,6 +38,12 @@ CapturedSurface::CapturedSurface(const Scene& scene, const Pipeline& pipeline, c
     position_ = required(capture, "position");
     depth_ = plane_of(capture, pipeline, "depth");
   }
+  if (pipeline.light_program.used()) {
+    uv_ = plane_of(capture, pipeline, "uv"), material_ = plane_of(capture, pipeline, "id.material");
+    const bool unlit =
+        std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.unlit; });
+    if (unlit) material_ = required(capture, "id.material");
+  }
   const bool shaded = std::any_of(scene.materials.begin(), scene.materials.end(),
                                   [](const Material& m) { return m.occlusion_map.used(); });
   if (emission_ && shaded && info(pipeline.gbuffer.emission).channels > 3 && emission_.channels < 4)
@@ -86,6 +92,11 @@ ShadedSurface CapturedSurface::at(int x, int y) const {
   if (specular_) s.shininess = specular_.stored(x, y, 3);
   if (emission_ && emission_.channels > 3) s.ambient_share = fetched(emission_, x, y, 3);
   if (!position_) s.position = position_from_depth(x, y);
+  if (!pipeline_.light_program.used()) return s;
+  for (int k = 0; k < 2 && uv_; ++k) s.uv[size_t(k)] = fetched(uv_, x, y, k);
+  if (object_) s.object = uint32_t(object_.stored(x, y, 0));
+  if (material_) s.material = uint32_t(material_.stored(x, y, 0));
+  s.pixel = {x, pipeline_.height - 1 - y};
   return s;
 }
 

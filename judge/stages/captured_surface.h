@@ -32,6 +32,7 @@ class CapturedSurface {
   const Pipeline pipeline_;
   const Profile profile_;
   PlaneView normal_, albedo_, object_, specular_, emission_, position_, depth_;
+  PlaneView uv_, material_;  ///< for light programs
   Viewport viewport_;
   Matrix4 world_from_clip_{};
 };

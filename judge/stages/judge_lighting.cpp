@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/threads/parallel_for.h"
+#include "judge/bounds/program_bounds.h"
 #include "judge/legal/allows.h"
 #include "judge/stages/captured_surface.h"
 #include "judge/stages/glass_deviations.h"
@@ -35,6 +36,7 @@ class LightingJudge {
         lights_(scene, pipeline.light_model,
                 view_axis(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height)),
                 profile.arithmetic, profile.exact_planes, pipeline.light_volumes) {
+    if (pipeline.light_program.used()) take_program(capture);
     if (draws_transparent(scene, pipeline) && pipeline.transparency.mode == TransparencyMode::after_lights)
       layers_.emplace(scene, pipeline, profile, capture, rows);
   }
@@ -66,6 +68,8 @@ class LightingJudge {
     int x0 = 0, y0 = 0, x1 = 0;
     std::vector<ShadedSurface> surfaces;  ///< row by row; of pixels without one any
     LightColumns near;
+    std::vector<uint32_t> near_lights;           ///< of a light program
+    mutable ProgramBounds::Registers registers;  ///< the same
     const ShadedSurface& at(int x, int y) const { return surfaces[size_t((y - y0) * (x1 - x0) + x - x0)]; }
   };
 
@@ -80,7 +84,15 @@ class LightingJudge {
   }
   void look_at(int x0, int y0, int x1, int y1, Tile& tile) const;
   uint32_t pixel_at(int x, int y) const { return uint32_t(y) * uint32_t(pipeline_.width) + uint32_t(x); }
-  bool fits(const LitRange& lit, const std::array<double, 3>& change, int x, int y, Match& m) const;
+  void take_program(const Capture& capture);
+  struct Output {
+    std::array<Range, 4> color;
+    bool undefined = false;
+  };
+  /// What is stored of a sum: the branches that were taken have changed it by so much.
+  Output output(const LitRange& lit, const std::array<double, 3>& change, const ShadedSurface& surface,
+                const Tile& tile) const;
+  bool fits(const LitRange& lit, const Output& output, int x, int y, Match& m) const;
   void judge_pixel(int x, int y, const Tile& tile, RowTally& row) const;
   void judge_uncovered(int x, int y, RowTally& row) const;
   void judge_layered(int x, int y, RowTally& row) const;
@@ -95,6 +107,7 @@ class LightingJudge {
   const PlaneView color_, count_;
   const bool sees_thresholds_ = converts_as_seen(color_, profile_);
   const LightBounds lights_;
+  std::optional<ProgramBounds> program_;  ///< instead of these, where the pipeline has a light program
   std::optional<TransparentLayers> layers_;
 };
 
@@ -149,16 +162,39 @@ void LightingJudge::judge_layered(int x, int y, RowTally& row) const {
   row.take(x, y, v.pixel_class, v.match, std::to_string(pixel.layers.size()) + " transparent fragments");
 }
 
-bool LightingJudge::fits(const LitRange& lit, const std::array<double, 3>& change, int x, int y, Match& m) const {
+void LightingJudge::take_program(const Capture& capture) {
+  program_.emplace(scene_, pipeline_, profile_.arithmetic);
+  for (const auto& [field, plane] : {std::pair("surface.uv", "uv"), {"surface.material", "id.material"},
+                                     {"surface.object", "id.object"}})
+    if (program_->reads(field) && capture.plane(plane) == nullptr)
+      throw Error(ErrorKind::bad_input, capture.name + ": plane " + plane, "is missing",
+                  "the light program reads " + std::string(field));
+}
+
+LightingJudge::Output LightingJudge::output(const LitRange& lit, const std::array<double, 3>& change,
+                                            const ShadedSurface& surface, const Tile& tile) const {
+  Output out;
+  Bounded3 sum = lit.color;
+  for (size_t k = 0; k < 3; ++k) sum[k].value += change[k];
+  if (program_) {
+    const ProgramBounds::Finished finished = program_->finished(surface, sum, tile.registers);
+    for (size_t k = 0; k < 4; ++k) out.color[k] = range_of(finished.color[k]);
+    out.undefined = finished.undefined;
+    return out;
+  }
+  for (size_t k = 0; k < 3; ++k) out.color[k] = output_range(pipeline_.light_model, sum[k]);
+  out.color[3] = output_range(pipeline_.light_model, surface_.alpha(surface));
+  return out;
+}
+
+bool LightingJudge::fits(const LitRange& lit, const Output& output, int x, int y, Match& m) const {
   const uint32_t pixel = pixel_at(x, y);
-  for (int k = 0; k < 3; ++k) {
-    Bounded c = lit.color[size_t(k)];
-    c.value += change[size_t(k)];
-    const Range output = output_range(pipeline_.light_model, c);
-    m.channel_is(color_, "color", k, output, color_.stored(x, y, k), pixel, profile_);
-    if (!sees_thresholds_ || !lit.branches.empty()) continue;
+  for (int k = 0; k < color_.channels; ++k) {
+    m.channel_is(color_, "color", k, output.color[size_t(k)], color_.stored(x, y, k), pixel, profile_);
+    if (k == 3 || !sees_thresholds_ || !lit.branches.empty()) continue;
     const double largest = color_.layout.largest_code(k);
-    if (std::optional<NearThreshold> s = near_threshold(output, largest, profile_.likely.code_reach, 0, k)) {
+    if (std::optional<NearThreshold> s =
+            near_threshold(output.color[size_t(k)], largest, profile_.likely.code_reach, 0, k)) {
       s->uppers = color_.stored(x, y, k) > s->threshold ? 1 : 0;
       m.near_thresholds.push_back(*s);
     }
@@ -197,7 +233,10 @@ void LightingJudge::look_at(int x0, int y0, int x1, int y1, Tile& tile) const {
         box[k].high = is_known ? std::max(box[k].high, high) : HUGE_VAL;
       }
     }
-  lights_.take_near(box, tile.near);
+  if (program_)
+    program_->take_near(box, tile.near_lights);
+  else
+    lights_.take_near(box, tile.near);
 }
 
 void LightingJudge::judge_pixel(int x, int y, const Tile& tile, RowTally& row) const {
@@ -205,19 +244,14 @@ void LightingJudge::judge_pixel(int x, int y, const Tile& tile, RowTally& row) c
   if (!surface_.covered(x, y)) return judge_uncovered(x, y, row);
   ++row.covered;
   const ShadedSurface& surface = tile.at(x, y);
-  const LitRange lit = lights_.at(surface, tile.near);
-  if (lit.undefined) return row.take(x, y, PixelClass::undefined, {}, "");
+  const LitRange lit =
+      program_ ? program_->at(surface, tile.near_lights, tile.registers) : lights_.at(surface, tile.near);
+  const Output as_real = output(lit, {}, surface, tile);
+  if (lit.undefined || as_real.undefined) return row.take(x, y, PixelClass::undefined, {}, "");
   if (!lit.branches.empty()) row.may_be_other(pixel_at(x, y), pixel_at(x, y), 0.5);
   Match nominal;
-  const auto others = [&](Match& m) {
-    if (color_.channels > 3) {
-      m.channel_is(color_, "color", 3, output_range(pipeline_.light_model, surface_.alpha(surface)),
-                   color_.stored(x, y, 3), pixel_at(x, y), profile_);
-    }
-    count_is(lit, x, y, m);
-  };
-  fits(lit, {}, x, y, nominal);
-  others(nominal);
+  fits(lit, as_real, x, y, nominal);
+  count_is(lit, x, y, nominal);
   if (nominal.legal) return row.take(x, y, nominal.second ? PixelClass::store_2 : PixelClass::exact, nominal, "");
   const size_t count = lit.branches.size();
   if (count > 0 && count <= kMostBranches) {
@@ -226,8 +260,8 @@ void LightingJudge::judge_pixel(int x, int y, const Tile& tile, RowTally& row) c
       for (size_t i = 0; i < count; ++i)
         for (size_t k = 0; k < 3 && (set >> i & 1) != 0; ++k) change[k] += lit.branches[i].change[k];
       Match m;
-      fits(lit, change, x, y, m);
-      others(m);
+      fits(lit, output(lit, change, surface, tile), x, y, m);
+      count_is(lit, x, y, m);
       if (m.legal) return row.take(x, y, PixelClass::branch, m, std::to_string(count) + " lights at their threshold");
     }
   } else if (count > kMostBranches) {
@@ -235,8 +269,8 @@ void LightingJudge::judge_pixel(int x, int y, const Tile& tile, RowTally& row) c
     for (const OtherBranch& b : lit.branches)
       for (size_t k = 0; k < 3; ++k) hull.color[k].error += std::fabs(b.change[k]);
     Match m;
-    fits(hull, {}, x, y, m);
-    others(m);
+    fits(hull, output(hull, {}, surface, tile), x, y, m);
+    count_is(hull, x, y, m);
     if (m.legal) return row.take(x, y, PixelClass::branch, m, std::to_string(count) + " lights at their threshold");
   }
   nominal.choices.clear(), nominal.near_thresholds.clear();

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "judge/stages/transparent_layers.h"
 #include "scenes/pipeline/transparency.h"
+#include "shading/program/program_frame.h"
 
 namespace trueshade::oracle {
 
@@ -32,6 +33,7 @@ class Validation {
       add_surfaces();
     const bool layers =
         draws_transparent(scene_, pipeline_) && pipeline_.transparency.mode == TransparencyMode::after_lights;
+    if (layers) require_no_light_program(pipeline_, "the judgement of transparent surfaces");
     begin("the lights");
     if (capture_.color.width > 0) {
       if (layers && options_.objects)
@@ -166,9 +168,8 @@ std::string Verdict::material_line() const {
 
 Verdict validate_capture(const Scene& scene, const Pipeline& asked, const Capture& capture,
                          const ValidateOptions& options) {
-  require_no_light_program(asked, "the judge");
-  Pipeline pipeline = asked;
-  pipeline.gbuffer = surface_planes(asked);  // forward strategies are judged from float planes of the same surfaces
+  Pipeline pipeline = with_planes_of_program(asked);
+  pipeline.gbuffer = surface_planes(pipeline);  // forward strategies are judged from float planes of the same surfaces
   Validation validation(scene, pipeline, capture, options);
   std::vector<Stage> stages = validation.stages();
   if (stages.empty())

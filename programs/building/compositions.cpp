@@ -53,7 +53,7 @@ NodeId Compositions::smoothstep(NodeId low, NodeId high, NodeId x) {
   return mul(mul(t, t), sub(b_.number(3.0f), mul(b_.number(2.0f), t)));
 }
 
-NodeId Compositions::inverse_root(NodeId x) { return div(b_.number(1.0f), b_.make(Op::f_sqrt, x)); }
+NodeId Compositions::inverse_root(NodeId x) { return b_.make(Op::f_inverse_sqrt, x); }
 
 NodeId Compositions::dot(std::span<const NodeId> x, std::span<const NodeId> y) {
   NodeId sum = mul(x[0], y[0]);

@@ -267,6 +267,8 @@ void run_one(const CodeView& view, const Instruction& one) {
       return any_2(LessEqual(), view, one);
     case Op::f_sqrt:
       return lanes_1(Root(), view, one);
+    case Op::f_inverse_sqrt:
+      return lanes_1(InverseRoot(), view, one);
     case Op::f_neg:
       return lanes_1(Negated(), view, one);
     case Op::f_abs:

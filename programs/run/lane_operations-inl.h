@@ -74,6 +74,9 @@ struct LessEqual {
 struct Root {
   HWY_INLINE VF operator()(VF a) const { return hn::Sqrt(a); }
 };
+struct InverseRoot {
+  HWY_INLINE VF operator()(VF a) const { return hn::Div(hn::Set(DF(), 1.0f), hn::Sqrt(a)); }
+};
 struct Negated {
   HWY_INLINE VF operator()(VF a) const { return hn::Xor(a, hn::SignBit(DF())); }
 };

@@ -16,6 +16,7 @@ constexpr std::array<OpInfo, kOpCount> kOps = {{
     {"mul", kF, 2, {kF, kF}},
     {"div", kF, 2, {kF, kF}},
     {"sqrt", kF, 1, {kF}},
+    {"inversesqrt", kF, 1, {kF}},
     {"fma", kF, 3, {kF, kF, kF}},
     {"floor", kF, 1, {kF}},
     {"ceil", kF, 1, {kF}},

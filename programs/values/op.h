@@ -19,6 +19,7 @@ enum class Op : uint8_t {
   f_mul,
   f_div,
   f_sqrt,
+  f_inverse_sqrt,  ///< 1 / sqrt, each rounded: one operation, whose accuracy GLSL states
   f_fma,
   f_floor,
   f_ceil,

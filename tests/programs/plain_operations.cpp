@@ -162,6 +162,8 @@ uint32_t plain_float(Op op, float a, float b, float c) {
       return u(a / b);
     case Op::f_sqrt:
       return u(std::sqrt(a));
+    case Op::f_inverse_sqrt:
+      return u(1.0f / std::sqrt(a));
     case Op::f_fma:
       return u(std::fma(a, b, c));
     case Op::f_floor:

@@ -1,0 +1,67 @@
+#pragma once
+// What an operation of a light program may make of operands that are known within bounds, by the accuracy that GLSL
+// 4.60, 4.7.1 and Vulkan's "Precision and Operation of SPIR-V Instructions" promise of it.
+#include <cmath>
+#include <span>
+
+#include "judge/bounds/bounded.h"
+#include "programs/values/program.h"
+
+namespace trueshade::oracle {
+
+/// A number as a legal arithmetic may have it: anything from low to high, which may be infinite, or NaN where
+/// maybe_nan. `value` is what real arithmetic has. Integers and truth values (0 and 1) alike.
+struct Interval {
+  double value = 0, low = 0, high = 0;
+  bool maybe_nan = false;
+
+  static Interval of(double x) { return {x, x, x, std::isnan(x)}; }
+  static Interval anything() { return {0, -HUGE_VAL, HUGE_VAL, true}; }
+  bool known() const { return low == high && !maybe_nan; }
+  bool is_true() const { return low > 0 && !maybe_nan; }
+  bool is_false() const { return high <= 0 && !maybe_nan; }
+  double size() const { return std::max(std::fabs(low), std::fabs(high)); }  ///< the largest magnitude
+};
+
+Interval interval_of(const Bounded& x);
+
+/// The value and the farther end; an infinite error of what may be NaN.
+Bounded bounded_of(const Interval& x);
+
+/// What holds both.
+Interval hull(const Interval& x, const Interval& y);
+
+/// The operations of op.h over intervals. Every result holds whatever a driver of that arithmetic may compute of
+/// operands that the given intervals hold.
+class IntervalArithmetic {
+ public:
+  explicit IntervalArithmetic(const Arithmetic& arithmetic) : a_(arithmetic) {}
+
+  /// Operands that the operation does not have are not read. Not of `constant` and `input`.
+  Interval operator()(const programs::ProgramNode& node, const Interval& x, const Interval& y, const Interval& z) const;
+
+  /// Terms added in any order, two or more.
+  Interval sum(std::span<const Interval> terms) const;
+  Interval square(const Interval& x) const;
+
+ private:
+  double below(double x) const;
+  double above(double x) const;
+  Interval rounded(Interval x) const;
+  Interval within(Interval x, double relative, double absolute = 0) const;
+  Interval product(const Interval& x, const Interval& y) const;
+  Interval quotient(const Interval& x, const Interval& y) const;
+  Interval root(const Interval& x) const;
+  Interval inverse_root(const Interval& x) const;
+  Interval function(programs::Op op, const Interval& x, const Interval& y) const;
+  Interval exponential(const Interval& x, double base) const;
+  Interval logarithm(const Interval& x, double base) const;
+  Interval power(const Interval& x, const Interval& y) const;
+  Interval wave(const Interval& x, double quarter) const;
+  Interval tangent(const Interval& x) const;
+  Interval angle(const Interval& y, const Interval& x) const;
+
+  Arithmetic a_;
+};
+
+}  // namespace trueshade::oracle

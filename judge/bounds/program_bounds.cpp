@@ -1,0 +1,516 @@
+#include "judge/bounds/program_bounds.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <string_view>
+
+#include "core/error.h"
+#include "oracle/matrices.h"
+#include "programs/front/light_program.h"
+#include "scenes/pipeline/light_mesh.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+using programs::NodeId;
+using programs::Op;
+using programs::ProgramNode;
+using programs::Rate;
+
+constexpr size_t kMostTerms = 16;  // of a sum whose order is taken to be any
+
+/// The value of a float that was made of the number by one rounding, maybe of another formula.
+Interval once_rounded(double x) { return {x, x - 0x1p-23 * std::fabs(x), x + 0x1p-23 * std::fabs(x), false}; }
+
+/// A constant of the source. A compiler may have made it of others, in double or in floats: a part in 2^23, unless it
+/// has so few digits that it was written down.
+Interval constant_of(const ProgramNode& node) {
+  if (node.type != programs::Type::f32)
+    return Interval::of(node.type == programs::Type::i32 ? double(int32_t(node.bits)) : double(node.bits));
+  const auto x = double(std::bit_cast<float>(node.bits));
+  return (node.bits & 0xFFF) == 0 || !std::isfinite(x) ? Interval::of(x) : once_rounded(x);
+}
+
+/// "surface.position.x": the part between the dots, and 0 to 3 for x to w.
+std::string_view field_of(std::string_view name) {
+  const std::string_view rest = name.substr(name.find('.') + 1);
+  return rest.substr(0, rest.find_first_of(".["));
+}
+size_t component_of(std::string_view name) {
+  const size_t at = std::string_view("xyzw").find(name.back());
+  return at == std::string_view::npos || name[name.size() - 2] != '.' ? 0 : at;
+}
+
+Interval of_surface(std::string_view name, const ShadedSurface& s) {
+  const std::string_view field = field_of(name);
+  const size_t c = component_of(name);
+  if (field == "position") return interval_of(s.position[c]);
+  if (field == "normal") return interval_of(s.normal[c]);
+  if (field == "albedo") return interval_of(s.albedo[c]);
+  if (field == "specular") return interval_of(s.specular[c]);
+  if (field == "shininess") return interval_of({s.shininess, s.shininess_error});
+  if (field == "metallic") return interval_of(s.specular[0]);
+  if (field == "roughness") return interval_of(s.specular[1]);
+  if (field == "occlusion") return interval_of(s.ambient_share);
+  if (field == "emission") return interval_of(s.emission[c]);
+  if (field == "uv") return interval_of(s.uv[c]);
+  if (field == "object") return Interval::of(s.object);
+  if (field == "material") return Interval::of(s.material);
+  if (field == "pixel_x" || field == "pixel_y") return Interval::of(s.pixel[field == "pixel_x" ? 0 : 1]);
+  throw Error(ErrorKind::bad_input, std::string(name), "is a field that no plane of a capture holds", "another field");
+}
+
+/// docs/scenes.md, and docs/arithmetic.md section 8 for the numbers of cones.
+Interval of_light(std::string_view name, const Light& light, uint32_t index) {
+  const std::string_view field = field_of(name);
+  const int c = int(component_of(name));
+  const double cone = double(light.cone_rad), outer = cone + double(light.penumbra_rad);
+  const double width = 1 / std::max(0.001, std::cos(cone) - std::cos(outer));
+  if (field == "type") return Interval::of(double(light.type));
+  if (field == "index") return Interval::of(index);
+  if (field == "position") return Interval::of(double(light.position[c]));
+  if (field == "range") return Interval::of(double(light.range));
+  if (field == "direction") return Interval::of(double(light.direction[c]));
+  if (field == "color") return Interval::of(double(light.color[c]));
+  if (field == "attenuation") return Interval::of(double(light.attenuation[c]));
+  if (field == "ambient") return Interval::of(double(light.ambient[c]));
+  if (field == "cone") return Interval::of(cone);
+  if (field == "penumbra") return Interval::of(double(light.penumbra_rad));
+  if (field == "cos_inner") return once_rounded(std::cos(cone));
+  if (field == "cos_outer") return once_rounded(std::cos(outer));
+  if (field == "cone_scale") return once_rounded(width);
+  if (field == "cone_offset") return once_rounded(-std::cos(outer) * width);
+  if (field == "spot_exponent") return Interval::of(double(light.spot_exponent));
+  if (field == "shadow" || field == "cookie") return Interval::of(-1);
+  return Interval::of(0);  // right, up, user: nothing gives them
+}
+
+std::optional<double> parameter(std::string_view name, const LightProgram& program) {
+  const std::string_view field = field_of(name);
+  for (const ProgramParameter& p : program.parameters)
+    if (p.name == field && component_of(name) < p.value.size()) return double(p.value[component_of(name)]);
+  return std::nullopt;
+}
+
+programs::Program compiled(const LightProgram& given) {
+  if (given.text.empty())
+    throw Error(ErrorKind::usage, given.file, "the text of this light program is not here", "give it with its name");
+  uint32_t first = 0;
+  if (given.text.size() >= sizeof first) std::memcpy(&first, given.text.data(), sizeof first);
+  constexpr uint32_t kSpirv = 0x07230203;
+  if (first != kSpirv) return programs::program_from_glsl(given.file, given.text);
+  std::vector<uint32_t> words((given.text.size() + 3) / 4);
+  std::memcpy(words.data(), given.text.data(), given.text.size());
+  return programs::program_from_spirv(given.file, std::move(words));
+}
+
+/// What lights add up to, as shading.cpp has it of its own terms.
+struct ProgramTotal {
+  LitRange lit;
+  std::array<double, 3> magnitude{};
+  int added = 0;
+
+  void start(size_t k, const Interval& x) {
+    lit.undefined = lit.undefined || x.maybe_nan;
+    lit.color[k] = bounded_of(x);
+    magnitude[k] = x.size();
+    if (magnitude[k] > 0) added = 1;
+  }
+
+  /// nominal: the outcome of real arithmetic; nothing where a light that may reach the surface does not.
+  void add(std::span<const std::array<Interval, 3>> outcomes, std::optional<size_t> nominal, bool perhaps_nothing) {
+    ++added;
+    std::array<Bounded, 3> chosen{};
+    for (size_t k = 0; k < 3; ++k) {
+      double largest = 0;
+      for (const auto& one : outcomes) {
+        const Bounded b = bounded_of(one[k]);
+        lit.undefined = lit.undefined || one[k].maybe_nan;
+        chosen[k].error = std::max(chosen[k].error, b.error), largest = std::max(largest, one[k].size());
+      }
+      if (nominal) chosen[k].value = outcomes[*nominal][k].value;
+      lit.color[k].value += chosen[k].value, lit.color[k].error += chosen[k].error;
+      magnitude[k] += largest;
+    }
+    for (size_t i = 0; i < outcomes.size(); ++i) {
+      OtherBranch other;
+      for (size_t k = 0; k < 3; ++k) other.change[k] = outcomes[i][k].value - chosen[k].value;
+      if (i != nominal) add(other, chosen);
+    }
+    OtherBranch none;
+    for (size_t k = 0; k < 3; ++k) none.change[k] = -chosen[k].value;
+    if (perhaps_nothing && nominal) add(none, chosen);
+  }
+
+  /// Another result that the bound does not hold already.
+  void add(const OtherBranch& other, const std::array<Bounded, 3>& chosen) {
+    bool differs = false;
+    for (size_t k = 0; k < 3; ++k) differs = differs || !(std::fabs(other.change[k]) <= chosen[k].error);
+    if (!differs) {
+      for (size_t k = 0; k < 3; ++k) lit.color[k].error += std::fabs(other.change[k]);
+      return;
+    }
+    lit.branches.push_back(other);
+  }
+
+  LitRange finished(double roundoff) {
+    for (size_t k = 0; k < 3 && added > 1; ++k)
+      lit.color[k].error += (added - 1) * roundoff * (magnitude[k] + lit.color[k].error);
+    return std::move(lit);
+  }
+};
+
+}  // namespace
+
+ProgramBounds::ProgramBounds(const Scene& scene, const Pipeline& pipeline, const Arithmetic& arithmetic)
+    : scene_(scene),
+      arithmetic_(arithmetic),
+      of_(arithmetic),
+      program_(compiled(pipeline.light_program)),
+      volumes_(pipeline.light_volumes),
+      alpha_from_albedo_(pipeline.light_model.alpha_from_albedo) {
+  make_steps();
+  set_constants(scene, pipeline);
+  set_lights();
+}
+
+/// The terms of a sum: through sums that the compiler may take apart.
+void ProgramBounds::gather(NodeId id, bool negated, std::vector<std::pair<NodeId, bool>>& out) const {
+  const ProgramNode& node = program_.nodes[id];
+  const bool is_sum = node.op == Op::f_add || node.op == Op::f_sub;
+  const size_t before = out.size();
+  if ((is_sum || node.op == Op::f_neg) && !node.precise && before < kMostTerms) {
+    gather(node.operand[0], node.op == Op::f_neg ? !negated : negated, out);
+    if (is_sum) gather(node.operand[1], node.op == Op::f_sub ? !negated : negated, out);
+    if (out.size() <= kMostTerms) return;
+    out.resize(before);
+  }
+  out.emplace_back(id, negated);
+}
+
+/// normalize() as the front end composes it: a component times (0 < l2 ? inversesqrt(l2) : 0), where l2 is a sum that
+/// has the component's square.
+bool ProgramBounds::is_unit_component(const ProgramNode& product) const {
+  for (const size_t i : {0, 1}) {
+    NodeId root = product.operand[i];
+    if (program_.nodes[root].op == Op::select) root = program_.nodes[root].operand[1];
+    const ProgramNode& inverse = program_.nodes[root];
+    if (inverse.op != Op::f_inverse_sqrt) continue;
+    std::vector<std::pair<NodeId, bool>> terms;
+    gather(inverse.operand[0], false, terms);
+    for (const auto& [id, negated] : terms) {
+      const ProgramNode& square = program_.nodes[id];
+      const NodeId component = product.operand[1 - i];
+      if (!negated && square.op == Op::f_mul && square.operand[0] == component && square.operand[1] == component)
+        return std::all_of(terms.begin(), terms.end(), [&](const auto& t) {
+          const ProgramNode& n = program_.nodes[t.first];
+          return !t.second && n.op == Op::f_mul && n.operand[0] == n.operand[1];
+        });
+    }
+  }
+  return false;
+}
+
+void ProgramBounds::find_patterns(NodeId id, Step& step) {
+  const ProgramNode& node = program_.nodes[id];
+  const auto at = [&](NodeId n) -> const ProgramNode& { return program_.nodes[n]; };
+  const auto is_number = [&](NodeId n, float x) {
+    return at(n).op == Op::constant && at(n).bits == std::bit_cast<uint32_t>(x);
+  };
+  step.squares = node.op == Op::f_mul && node.operand[0] == node.operand[1];
+  step.of_unit_vector = node.op == Op::f_mul && is_unit_component(node);
+  step.normalizes = node.op == Op::select && at(node.operand[1]).op == Op::f_inverse_sqrt &&
+                    is_number(node.operand[2], 0.0f);
+  if (node.op != Op::f_add || node.precise) return;
+  for (const size_t i : {0, 1}) {  // x (1 - a) + y a
+    const ProgramNode &first = at(node.operand[i]), &second = at(node.operand[1 - i]);
+    if (first.op != Op::f_mul || second.op != Op::f_mul) continue;
+    for (const size_t j : {0, 1}) {
+      const ProgramNode& rest = at(first.operand[j]);
+      if (rest.op != Op::f_sub || !is_number(rest.operand[0], 1.0f)) continue;
+      for (const size_t k : {0, 1})
+        if (second.operand[k] == rest.operand[1]) {
+          mixes_.push_back({place_[first.operand[1 - j]], place_[second.operand[1 - k]], place_[rest.operand[1]]});
+          step.mixed = uint32_t(mixes_.size());
+          return;
+        }
+    }
+  }
+}
+
+/// Places for all nodes, and what is computed of them how often. Sums are computed of their terms, so a partial sum
+/// that nothing else reads is not.
+void ProgramBounds::make_steps() {
+  const size_t count = program_.nodes.size();
+  place_.resize(count);
+  for (NodeId id = 0; id < count; ++id) {
+    const auto rate = size_t(program_.nodes[id].rate);
+    place_[id] = {uint8_t(rate), slots_[rate]++};
+  }
+  std::vector<std::vector<std::pair<NodeId, bool>>> terms(count);
+  // 1: light() needs it; 2: reaches() alone; 3: start() or finish().
+  std::vector<uint8_t> needed(count, 0);
+  const auto mark = [&](int first, int end, uint8_t by) {
+    for (int i = first; i < end; ++i)
+      if (needed[program_.output[size_t(i)]] == 0) needed[program_.output[size_t(i)]] = by;
+    for (NodeId id = NodeId(count); id-- > 0;) {
+      if (needed[id] != by) continue;
+      const ProgramNode& node = program_.nodes[id];
+      const auto need = [&](NodeId from) {
+        if (needed[from] == 0) needed[from] = by;
+      };
+      if ((node.op == Op::f_add || node.op == Op::f_sub) && !node.precise) {
+        gather(id, false, terms[id]);
+        for (const auto& [term, negated] : terms[id]) need(term);
+        for (const NodeId operand : node.operands())
+          if (terms[id].size() <= 1) need(operand);  // a sum of too many terms is taken as it stands
+        for (const NodeId operand : node.operands())  // mix() looks at what its products are made of
+          if (program_.nodes[operand].op == Op::f_mul)
+            for (const NodeId factor : program_.nodes[operand].operands()) {
+              need(factor);
+              if (program_.nodes[factor].op == Op::f_sub) need(program_.nodes[factor].operand[1]);
+            }
+      } else {
+        for (const NodeId operand : node.operands()) need(operand);
+      }
+    }
+  };
+  mark(programs::kLightOutput, programs::kReachesOutput, 1);
+  mark(programs::kReachesOutput, programs::kStartOutput, 2);
+  mark(programs::kStartOutput, programs::kOutputCount, 3);
+  for (NodeId id = 0; id < count; ++id) {
+    const ProgramNode& node = program_.nodes[id];
+    if (needed[id] == 0 || node.op == Op::constant) continue;
+    if (node.op == Op::input) {
+      if (node.rate == Rate::surface) surface_inputs_.emplace_back(place_[id].slot, node.bits);
+      if (node.rate == Rate::sum) sum_inputs_.emplace_back(place_[id].slot, component_of(program_.inputs[node.bits].name));
+      continue;
+    }
+    Step step;
+    step.node = node, step.slot = place_[id].slot;
+    for (size_t i = 0; i < node.operands().size(); ++i) step.from[i] = place_[node.operand[i]];
+    if (terms[id].size() > 1) {
+      step.first_term = uint32_t(terms_.size()), step.terms = uint32_t(terms[id].size());
+      for (const auto& [term, negated] : terms[id]) terms_.push_back({place_[term], negated});
+    }
+    find_patterns(id, step);
+    std::vector<Step>* const lists[] = {&constants_, &of_lights_, &of_surfaces_, &of_pairs_, &of_sums_};
+    (node.rate == Rate::pair && needed[id] == 2 ? of_reaches_ : *lists[size_t(node.rate)]).push_back(step);
+  }
+}
+
+/// Of the view and the parameters, which hold for the whole frame.
+Interval ProgramBounds::input_of_frame(const std::string& name, const Scene& scene, const Pipeline& pipeline) const {
+  const std::string_view field = field_of(name);
+  const size_t c = component_of(name);
+  if (name.starts_with("parameters.")) {
+    if (const std::optional<double> value = parameter(name, pipeline.light_program)) return Interval::of(*value);
+    throw Error(ErrorKind::usage, program_.name, "nothing gives " + name, "--light-parameter NAME=VALUE");
+  }
+  const Matrix4 clip_from_world = projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height);
+  if (field == "eye") return Interval::of(double(scene.camera.eye[int(c)]));
+  if (field == "axis") return once_rounded(-view_axis(clip_from_world)[c]);
+  if (field == "size") return Interval::of(c == 0 ? pipeline.width : pipeline.height);
+  if (field == "time" || field == "frame") return Interval::of(0);
+  if (field == "view_projection") return once_rounded(clip_from_world[4 * size_t(name[name.find('[') + 1] - '0') + c]);
+  throw Error(ErrorKind::bad_input, program_.name, "nothing gives " + name, "another field");
+}
+
+void ProgramBounds::set_constants(const Scene& scene, const Pipeline& pipeline) {
+  constant_values_.resize(slots_[size_t(Rate::constant)]);
+  for (NodeId id = 0; id < program_.nodes.size(); ++id) {
+    const ProgramNode& node = program_.nodes[id];
+    if (node.rate != Rate::constant) continue;
+    if (node.op == Op::constant) constant_values_[place_[id].slot] = constant_of(node);
+    if (node.op == Op::input)
+      constant_values_[place_[id].slot] = input_of_frame(program_.inputs[node.bits].name, scene, pipeline);
+  }
+  std::vector<Interval> terms;
+  run(constants_, constant_values_, {constant_values_.data()}, terms);
+}
+
+void ProgramBounds::set_lights() {
+  std::vector<Interval> terms;
+  for (uint32_t i = 0; i < scene_.lights.size(); ++i) {
+    std::vector<Interval>& values = light_values_.emplace_back(slots_[size_t(Rate::light)]);
+    for (NodeId id = 0; id < program_.nodes.size(); ++id) {
+      const ProgramNode& node = program_.nodes[id];
+      if (node.op == Op::input && node.rate == Rate::light)
+        values[place_[id].slot] = of_light(program_.inputs[node.bits].name, scene_.lights[i], i);
+    }
+    run(of_lights_, values, {constant_values_.data(), values.data()}, terms);
+  }
+}
+
+ProgramBounds::Values ProgramBounds::values_of(const Registers& r) const {
+  Values values{};
+  for (size_t rate = 0; rate < values.size(); ++rate) values[rate] = r.of[rate].data();
+  values[size_t(Rate::constant)] = constant_values_.data();
+  if (!light_values_.empty()) values[size_t(Rate::light)] = light_values_[r.light].data();
+  return values;
+}
+
+Interval ProgramBounds::evaluated(const Step& step, const Values& values, std::vector<Interval>& terms) const {
+  const auto at = [&](const Place& p) -> const Interval& { return values[p.rate][p.slot]; };
+  if (step.terms > 0) {
+    terms.clear();
+    for (uint32_t i = 0; i < step.terms; ++i) {
+      const Term& term = terms_[step.first_term + i];
+      const Interval& x = at(term.from);
+      terms.push_back(term.negated ? Interval{-x.value, -x.high, -x.low, x.maybe_nan} : x);
+    }
+    Interval out = of_.sum(terms);
+    if (step.mixed == 0) return out;
+    const Mix& mix = mixes_[step.mixed - 1];
+    const double other = 2 * arithmetic_.roundoff * at(mix.a).size() * (at(mix.x).size() + at(mix.y).size());
+    out.low -= other, out.high += other;
+    return out;
+  }
+  if (step.squares) return of_.square(at(step.from[0]));
+  Interval out = of_(step.node, at(step.from[0]), at(step.from[1]), at(step.from[2]));
+  if (step.of_unit_vector && !out.maybe_nan) {  // however far the vector is off: |v_k| <= |v|, and some roundings
+    const double most = 1 + 4 * arithmetic_.roundoff + 2 * arithmetic_.inverse_sqrt;
+    out.low = std::clamp(out.low, -most, most), out.high = std::clamp(out.high, -most, most);
+  }
+  if (step.normalizes && !arithmetic_.exact_pow && !at(step.from[0]).is_true()) out.maybe_nan = true;
+  return out;
+}
+
+void ProgramBounds::run(std::span<const Step> steps, std::vector<Interval>& out, const Values& values,
+                        std::vector<Interval>& terms) const {
+  for (const Step& step : steps) out[step.slot] = evaluated(step, values, terms);
+}
+
+/// follow: decisions are taken, and comparisons that may go either way become open.
+void ProgramBounds::run_pair(std::span<const Step> steps, Registers& r, bool follow) const {
+  const Values values = values_of(r);
+  std::vector<Interval>& out = r.of[size_t(Rate::pair)];
+  for (const Step& step : steps) {
+    Interval& x = out[step.slot];
+    x = evaluated(step, values, r.terms);
+    if (!follow || info(step.node.op).result != programs::Type::boolean || step.node.op == Op::select || x.known()) continue;
+    if (step.node.op >= Op::b_and && step.node.op <= Op::b_not) continue;  // of comparisons, which are open
+    if (r.decided[step.slot] >= 0)
+      x = Interval::of(r.decided[step.slot]);
+    else
+      r.open.push_back(step.slot);
+  }
+}
+
+const Interval& ProgramBounds::output(int number, const Values& values) const {
+  const Place& place = place_[program_.output[size_t(number)]];
+  return values[place.rate][place.slot];
+}
+
+ProgramBounds::Outcome ProgramBounds::outcome(Registers& r) const {
+  const Values values = values_of(r);
+  return {output(programs::kLightOutput, values), output(programs::kLightOutput + 1, values),
+          output(programs::kLightOutput + 2, values)};
+}
+
+/// What one light may add: one result for each way that its open comparisons may go.
+std::vector<ProgramBounds::Outcome> ProgramBounds::outcomes(Registers& r, size_t& nominal) const {
+  nominal = 0;
+  r.open.clear();
+  run_pair(of_pairs_, r, true);
+  std::vector<Outcome> out{outcome(r)};
+  const std::vector<uint32_t> open = r.open;
+  if (open.empty() || open.size() > kMostForks) return out;
+  out.clear();
+  for (size_t i = 0; i < open.size(); ++i)
+    if (r.of[size_t(Rate::pair)][open[i]].value != 0) nominal |= size_t(1) << i;
+  for (size_t set = 0; set < size_t(1) << open.size(); ++set) {
+    for (size_t i = 0; i < open.size(); ++i) r.decided[open[i]] = int8_t(set >> i & 1);
+    run_pair(of_pairs_, r, true);
+    out.push_back(outcome(r));
+  }
+  for (const uint32_t slot : open) r.decided[slot] = -1;
+  return out;
+}
+
+/// A light ends at its range where the pipeline gives it an extent.
+ProgramBounds::Reach ProgramBounds::reach_of(const Light& light, const ShadedSurface& surface) const {
+  if (drawn_extent(light, volumes_) == LightExtent::unbounded) return Reach::surely;
+  Bounded3 offset;
+  for (size_t k = 0; k < 3; ++k)
+    offset[k] = difference(arithmetic_, {double(light.position[int(k)]), 0}, surface.position[k]);
+  const Bounded d = square_root(arithmetic_, dot(arithmetic_, offset, offset));
+  const auto range = double(light.range);
+  if (d.low() >= range) return Reach::none;
+  if (d.high() < range) return Reach::surely;
+  return d.value < range ? Reach::perhaps : Reach::perhaps_not_nominally;
+}
+
+void ProgramBounds::take_near(const std::array<LightBounds::Span, 3>& box, std::vector<uint32_t>& near) const {
+  constexpr double kRoom = 1 + 0x1p-8;  // for all that rounding may move a distance
+  near.clear();
+  for (uint32_t i = 0; i < scene_.lights.size(); ++i) {
+    const Light& light = scene_.lights[i];
+    double square = 0, size = 0;
+    for (size_t k = 0; k < 3; ++k) {
+      const auto p = double(light.position[int(k)]);
+      const double off = std::max({box[k].low - p, p - box[k].high, 0.0});
+      square += off * off, size = std::max({size, std::fabs(box[k].low), std::fabs(box[k].high), std::fabs(p)});
+    }
+    const double reach = double(light.range) * kRoom + size * 0x1p-16;
+    if (drawn_extent(light, volumes_) == LightExtent::unbounded || !(square > reach * reach)) near.push_back(i);
+  }
+}
+
+bool ProgramBounds::reads(std::string_view field) const {
+  return std::any_of(program_.inputs.begin(), program_.inputs.end(),
+                     [field](const programs::ProgramInput& input) { return input.name.starts_with(field); });
+}
+
+bool ProgramBounds::is_unlit(const ShadedSurface& s) const {
+  return s.material > 0 && s.material <= scene_.materials.size() && scene_.materials[s.material - 1].unlit;
+}
+
+LitRange ProgramBounds::at(const ShadedSurface& surface, std::span<const uint32_t> lights, Registers& r) const {
+  for (size_t rate = 0; rate < r.of.size(); ++rate) r.of[rate].resize(slots_[rate]);
+  r.decided.resize(slots_[size_t(Rate::pair)], -1);
+  std::vector<Interval>& own = r.of[size_t(Rate::surface)];
+  for (const auto& [slot, input] : surface_inputs_) own[slot] = of_surface(program_.inputs[input].name, surface);
+  run(of_surfaces_, own, values_of(r), r.terms);
+  ProgramTotal total;
+  if (is_unlit(surface)) return total.lit;
+  for (size_t k = 0; k < 3; ++k) total.start(k, output(programs::kStartOutput + int(k), values_of(r)));
+  for (const uint32_t i : lights) {
+    const Reach reach = reach_of(scene_.lights[i], surface);
+    if (reach == Reach::none) continue;
+    r.light = i;
+    size_t nominal = 0;
+    const std::vector<Outcome> all = outcomes(r, nominal);
+    run_pair(of_reaches_, r, false);
+    const Interval counted = output(programs::kReachesOutput, values_of(r));
+    if (reach == Reach::surely && counted.is_true()) ++total.lit.lights_low;
+    if (!counted.is_false()) ++total.lit.lights_high;
+    const bool is_in = reach != Reach::perhaps_not_nominally;
+    total.add(all, is_in ? std::optional(nominal) : std::nullopt, reach == Reach::perhaps);
+  }
+  return total.finished(arithmetic_.roundoff);
+}
+
+ProgramBounds::Finished ProgramBounds::finished(const ShadedSurface& surface, const Bounded3& sum, Registers& r) const {
+  Finished out;
+  if (is_unlit(surface)) {
+    out.color = surface.albedo;
+    return out;
+  }
+  std::vector<Interval>& own = r.of[size_t(Rate::sum)];
+  for (const auto& [slot, channel] : sum_inputs_) own[slot] = interval_of(sum[channel]);
+  const Values values = values_of(r);
+  run(of_sums_, own, values, r.terms);
+  for (size_t k = 0; k < 4; ++k) {
+    const Interval& x = output(programs::kFinishOutput + int(k), values);
+    out.color[k] = bounded_of(x), out.undefined = out.undefined || x.maybe_nan;
+  }
+  if (!program_.defines_finish && alpha_from_albedo_) out.color[3] = surface.albedo[3];
+  return out;
+}
+
+}  // namespace trueshade::oracle

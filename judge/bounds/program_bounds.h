@@ -1,0 +1,118 @@
+#pragma once
+// What the lights of a light program add, as real numbers with bounds on what legal float arithmetic makes of them.
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "judge/bounds/interval.h"
+#include "judge/bounds/shading.h"
+
+namespace trueshade::oracle {
+
+/// A light program over the lights of a scene, ready for any surface. Borrows the scene, which must outlive it.
+///
+/// A sum is what its terms are in any order, unless the source says `precise`. Where a comparison may go either way,
+/// each way is followed: up to kMostForks comparisons of one light, beyond that what holds both results of every choice.
+class ProgramBounds {
+ public:
+  static constexpr size_t kMostForks = 4;
+
+  /// One thread's values: of a surface, and of the pair that is looked at. Of the bounds that filled it alone.
+  struct Registers {
+    std::array<std::vector<Interval>, programs::kRateCount> of;
+    std::vector<int8_t> decided;    ///< of the pair's nodes: 0 false, 1 true, -1 not decided
+    std::vector<uint32_t> open;     ///< comparisons of the pair that may go either way
+    std::vector<Interval> terms;
+    uint32_t light = 0;
+  };
+
+  /// Error as programs::program_from_glsl() has it; Error(usage) where a parameter has no value.
+  ProgramBounds(const Scene& scene, const Pipeline& pipeline, const Arithmetic& arithmetic);
+
+  /// Lights that may reach a surface whose position is in the box.
+  void take_near(const std::array<LightBounds::Span, 3>& box, std::vector<uint32_t>& near) const;
+
+  /// The sum of these lights, before finish().
+  LitRange at(const ShadedSurface& surface, std::span<const uint32_t> lights, Registers& registers) const;
+
+  /// What finish() makes of a sum at the surface that at() was asked for last with these registers: red, green, blue,
+  /// alpha. Not NaN alone: undefined where any of the four may be NaN.
+  struct Finished {
+    std::array<Bounded, 4> color;
+    bool undefined = false;
+  };
+  Finished finished(const ShadedSurface& surface, const Bounded3& sum, Registers& registers) const;
+
+  /// Whether it reads a field, "surface.uv", or a part of one.
+  bool reads(std::string_view field) const;
+
+  /// Whether the surface shows its albedo, whatever the lights.
+  bool is_unlit(const ShadedSurface& surface) const;
+
+ private:
+  /// Where a value lies: its rate's values, and the place among them.
+  struct Place {
+    uint8_t rate = 0;
+    uint32_t slot = 0;
+  };
+  /// A node as it is evaluated.
+  struct Step {
+    programs::ProgramNode node;
+    std::array<Place, 3> from{};
+    uint32_t slot = 0;
+    uint32_t first_term = 0, terms = 0;  ///< of a sum: in terms_
+    bool squares = false;                ///< a product of a value with itself
+    bool of_unit_vector = false;         ///< a component of what normalize() makes
+    bool normalizes = false;             ///< the choice of normalize(): undefined of a vector of no length
+    uint32_t mixed = 0;                  ///< of mix(): one more than its place in mixes_
+  };
+  struct Term {
+    Place from;
+    bool negated = false;
+  };
+  /// x (1 - a) + y a, which drivers also compute as x + a (y - x).
+  struct Mix {
+    Place x, y, a;
+  };
+  using Values = std::array<const Interval*, programs::kRateCount>;
+  using Outcome = std::array<Interval, 3>;
+
+  void make_steps();
+  void gather(programs::NodeId id, bool negated, std::vector<std::pair<programs::NodeId, bool>>& out) const;
+  void find_patterns(programs::NodeId id, Step& step);
+  bool is_unit_component(const programs::ProgramNode& product) const;
+  Interval input_of_frame(const std::string& name, const Scene& scene, const Pipeline& pipeline) const;
+  void set_constants(const Scene& scene, const Pipeline& pipeline);
+  void set_lights();
+  Values values_of(const Registers& registers) const;
+  Interval evaluated(const Step& step, const Values& values, std::vector<Interval>& terms) const;
+  void run(std::span<const Step> steps, std::vector<Interval>& out, const Values& values,
+           std::vector<Interval>& terms) const;
+  void run_pair(std::span<const Step> steps, Registers& registers, bool follow) const;
+  Outcome outcome(Registers& registers) const;
+  std::vector<Outcome> outcomes(Registers& registers, size_t& nominal) const;
+  enum class Reach : uint8_t { none, perhaps_not_nominally, perhaps, surely };
+  Reach reach_of(const Light& light, const ShadedSurface& surface) const;
+  const Interval& output(int number, const Values& values) const;
+
+  const Scene& scene_;
+  Arithmetic arithmetic_;
+  IntervalArithmetic of_;
+  programs::Program program_;
+  LightVolumes volumes_;
+  bool alpha_from_albedo_;
+  std::vector<Place> place_;  ///< of each node
+  std::array<uint32_t, programs::kRateCount> slots_{};
+  std::vector<Step> constants_, of_lights_, of_surfaces_, of_pairs_, of_reaches_, of_sums_;
+  std::vector<std::pair<uint32_t, uint32_t>> surface_inputs_;  ///< slot, and number in program_.inputs
+  std::vector<std::pair<uint32_t, size_t>> sum_inputs_;        ///< slot, and channel
+  std::vector<Term> terms_;
+  std::vector<Mix> mixes_;
+  std::vector<Interval> constant_values_;
+  std::vector<std::vector<Interval>> light_values_;
+};
+
+}  // namespace trueshade::oracle
