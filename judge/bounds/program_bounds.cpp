@@ -157,6 +157,15 @@ struct ProgramTotal {
     lit.branches.push_back(other);
   }
 
+  void add(const ProgramBounds::BlockSum& sum) {
+    added += sum.added;
+    lit.lights_low = sum.lights_low, lit.lights_high = sum.lights_high;
+    for (size_t k = 0; k < 3; ++k) {
+      lit.color[k].value += sum.color[k].value, lit.color[k].error += sum.color[k].error;
+      magnitude[k] += sum.magnitude[k];
+    }
+  }
+
   LitRange finished(double roundoff) {
     for (size_t k = 0; k < 3 && added > 1; ++k)
       lit.color[k].error += (added - 1) * roundoff * (magnitude[k] + lit.color[k].error);
@@ -321,7 +330,7 @@ Interval ProgramBounds::input_of_frame(const std::string& name, const Scene& sce
 }
 
 void ProgramBounds::set_constants(const Scene& scene, const Pipeline& pipeline) {
-  constant_values_.resize(slots_[size_t(Rate::constant)]);
+  constant_values_.resize(std::max<size_t>(1, slots_[size_t(Rate::constant)]));  // operands that are none read the first
   for (NodeId id = 0; id < program_.nodes.size(); ++id) {
     const ProgramNode& node = program_.nodes[id];
     if (node.rate != Rate::constant) continue;
@@ -359,13 +368,13 @@ Interval ProgramBounds::evaluated(const Step& step, const Values& values, std::v
   if (step.terms > 0) {
     terms.clear();
     for (uint32_t i = 0; i < step.terms; ++i) {
-      const Term& term = terms_[step.first_term + i];
+      const ProgramTerm& term = terms_[step.first_term + i];
       const Interval& x = at(term.from);
       terms.push_back(term.negated ? Interval{-x.value, -x.high, -x.low, x.maybe_nan} : x);
     }
     Interval out = of_.sum(terms);
     if (step.mixed == 0) return out;
-    const Mix& mix = mixes_[step.mixed - 1];
+    const ProgramMix& mix = mixes_[step.mixed - 1];
     const double other = 2 * arithmetic_.roundoff * at(mix.a).size() * (at(mix.x).size() + at(mix.y).size());
     out.low -= other, out.high += other;
     return out;
@@ -373,7 +382,7 @@ Interval ProgramBounds::evaluated(const Step& step, const Values& values, std::v
   if (step.squares) return of_.square(at(step.from[0]));
   Interval out = of_(step.node, at(step.from[0]), at(step.from[1]), at(step.from[2]));
   if (step.of_unit_vector && !out.maybe_nan) {  // however far the vector is off: |v_k| <= |v|, and some roundings
-    const double most = 1 + 4 * arithmetic_.roundoff + 2 * arithmetic_.inverse_sqrt;
+    const double most = largest_of_unit(arithmetic_);
     out.low = std::clamp(out.low, -most, most), out.high = std::clamp(out.high, -most, most);
   }
   if (step.normalizes && !arithmetic_.exact_pow && !at(step.from[0]).is_true()) out.maybe_nan = true;
@@ -470,12 +479,16 @@ bool ProgramBounds::is_unlit(const ShadedSurface& s) const {
   return s.material > 0 && s.material <= scene_.materials.size() && scene_.materials[s.material - 1].unlit;
 }
 
-LitRange ProgramBounds::at(const ShadedSurface& surface, std::span<const uint32_t> lights, Registers& r) const {
+void ProgramBounds::look_at(const ShadedSurface& surface, Registers& r) const {
   for (size_t rate = 0; rate < r.of.size(); ++rate) r.of[rate].resize(slots_[rate]);
   r.decided.resize(slots_[size_t(Rate::pair)], -1);
   std::vector<Interval>& own = r.of[size_t(Rate::surface)];
   for (const auto& [slot, input] : surface_inputs_) own[slot] = of_surface(program_.inputs[input].name, surface);
   run(of_surfaces_, own, values_of(r), r.terms);
+}
+
+LitRange ProgramBounds::at(const ShadedSurface& surface, std::span<const uint32_t> lights, Registers& r) const {
+  look_at(surface, r);
   ProgramTotal total;
   if (is_unlit(surface)) return total.lit;
   for (size_t k = 0; k < 3; ++k) total.start(k, output(programs::kStartOutput + int(k), values_of(r)));
@@ -495,13 +508,97 @@ LitRange ProgramBounds::at(const ShadedSurface& surface, std::span<const uint32_
   return total.finished(arithmetic_.roundoff);
 }
 
+ProgramLanes ProgramBounds::lanes_of(std::span<const Step> steps, Rate rate, Block& block, uint32_t light,
+                                     uint8_t* left) const {
+  ProgramLanes lanes{steps, terms_, mixes_, {}, {}, block.of[size_t(rate)].data(), arithmetic_, left};
+  lanes.one[size_t(Rate::constant)] = constant_values_.data();
+  if (!light_values_.empty()) lanes.one[size_t(Rate::light)] = light_values_[light].data();
+  for (const Rate of : {Rate::surface, Rate::pair}) lanes.lanes[size_t(of)] = block.of[size_t(of)].data();
+  return lanes;
+}
+
+/// Lanes behind the last surface repeat the first one.
+void ProgramBounds::look_at(std::span<const ShadedSurface* const> surfaces, Block& block) const {
+  for (const Rate rate : {Rate::surface, Rate::pair}) block.of[size_t(rate)].resize(slots_[size_t(rate)] + 1);
+  for (const auto& [slot, input] : surface_inputs_)
+    for (size_t i = 0; i < kIntervalLanes; ++i)
+      block.of[size_t(Rate::surface)][slot].set(
+          i, of_surface(program_.inputs[input].name, *surfaces[i < surfaces.size() ? i : 0]));
+  run_program_lanes(lanes_of(of_surfaces_, Rate::surface, block, 0, block.left.data()));
+}
+
+/// Which of the lanes a light surely reaches; true where it is any. Lanes that it may or may not reach are left.
+bool ProgramBounds::find_reached(const Light& light, std::span<const ShadedSurface* const> surfaces,
+                                 Block& block) const {
+  bool any = false;
+  for (size_t i = 0; i < surfaces.size(); ++i) {
+    const Reach reach = reach_of(light, *surfaces[i]);
+    block.reached[i] = reach == Reach::surely;
+    any = any || reach == Reach::surely;
+    if (reach == Reach::perhaps || reach == Reach::perhaps_not_nominally) block.left[i] = 1;
+  }
+  return any;
+}
+
+/// Of one light at the lanes that it reaches.
+void ProgramBounds::add(uint32_t light, size_t count, Block& block, std::span<BlockSum> sums) const {
+  std::array<uint8_t, kIntervalLanes> open{};
+  run_program_lanes(lanes_of(of_pairs_, Rate::pair, block, light, open.data()));
+  run_program_lanes(lanes_of(of_reaches_, Rate::pair, block, light, nullptr));
+  const ProgramLanes lanes = lanes_of({}, Rate::pair, block, light, nullptr);
+  const auto result = [&](int output, size_t lane) {
+    const Place& p = place_[program_.output[size_t(output)]];
+    return lanes.lanes[p.rate] != nullptr ? lanes.lanes[p.rate][p.slot].at(lane) : lanes.one[p.rate][p.slot];
+  };
+  for (size_t i = 0; i < count; ++i) {
+    if (!block.reached[i] || block.left[i] != 0) continue;
+    BlockSum& sum = sums[i];
+    for (int k = 0; k < 3; ++k) {
+      const Interval x = result(programs::kLightOutput + k, i);
+      const Bounded b = bounded_of(x);
+      if (!std::isfinite(b.error)) open[i] = 1;
+      sum.color[size_t(k)].value += b.value, sum.color[size_t(k)].error += b.error;
+      sum.magnitude[size_t(k)] += x.size();
+    }
+    block.left[i] |= open[i];
+    ++sum.added;
+    const Interval counted = result(programs::kReachesOutput, i);
+    sum.lights_low += counted.is_true(), sum.lights_high += !counted.is_false();
+  }
+}
+
+void ProgramBounds::at(std::span<const ShadedSurface* const> surfaces, std::span<const uint32_t> lights, Block& block,
+                       std::span<LitRange> lit) const {
+  block.left.fill(0);
+  look_at(surfaces, block);
+  std::array<BlockSum, kIntervalLanes> sums{};
+  for (const uint32_t i : lights)
+    if (find_reached(scene_.lights[i], surfaces, block)) add(i, surfaces.size(), block, sums);
+  const ProgramLanes lanes = lanes_of({}, Rate::surface, block, 0, nullptr);
+  for (size_t i = 0; i < surfaces.size(); ++i) {
+    if (block.left[i] != 0 || is_unlit(*surfaces[i])) {
+      lit[i] = at(*surfaces[i], lights, block.registers);
+      continue;
+    }
+    ProgramTotal total;
+    for (int k = 0; k < 3; ++k) {
+      const Place& p = place_[program_.output[size_t(programs::kStartOutput + k)]];
+      total.start(size_t(k), lanes.lanes[p.rate] != nullptr ? lanes.lanes[p.rate][p.slot].at(i) : lanes.one[p.rate][p.slot]);
+    }
+    total.add(sums[i]);
+    lit[i] = total.finished(arithmetic_.roundoff);
+  }
+}
+
 ProgramBounds::Finished ProgramBounds::finished(const ShadedSurface& surface, const Bounded3& sum, Registers& r) const {
   Finished out;
   if (is_unlit(surface)) {
     out.color = surface.albedo;
     return out;
   }
+  if (!of_sums_.empty()) look_at(surface, r);
   std::vector<Interval>& own = r.of[size_t(Rate::sum)];
+  own.resize(slots_[size_t(Rate::sum)]);
   for (const auto& [slot, channel] : sum_inputs_) own[slot] = interval_of(sum[channel]);
   const Values values = values_of(r);
   run(of_sums_, own, values, r.terms);

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "judge/bounds/interval.h"
+#include "judge/bounds/program_lanes.h"
 #include "judge/bounds/shading.h"
 
 namespace trueshade::oracle {
@@ -38,8 +38,24 @@ class ProgramBounds {
   /// The sum of these lights, before finish().
   LitRange at(const ShadedSurface& surface, std::span<const uint32_t> lights, Registers& registers) const;
 
-  /// What finish() makes of a sum at the surface that at() was asked for last with these registers: red, green, blue,
-  /// alpha. Not NaN alone: undefined where any of the four may be NaN.
+  /// What is known of surfaces that are judged together. One thread's.
+  struct Block {
+    std::array<std::vector<LaneInterval>, programs::kRateCount> of;
+    std::array<uint8_t, kIntervalLanes> left{}, reached{};
+    Registers registers;
+  };
+  /// What lights add to a surface, before what a sum starts from.
+  struct BlockSum {
+    Bounded3 color;
+    std::array<double, 3> magnitude{};
+    int added = 0, lights_low = 0, lights_high = 0;
+  };
+  /// The same of at most kIntervalLanes surfaces, in lanes. The same lights, branches and counts; bounds are no smaller
+  /// where nothing may be NaN.
+  void at(std::span<const ShadedSurface* const> surfaces, std::span<const uint32_t> lights, Block& block,
+          std::span<LitRange> lit) const;
+
+  /// What finish() makes of a sum: red, green, blue, alpha; undefined where any of the four may be NaN.
   struct Finished {
     std::array<Bounded, 4> color;
     bool undefined = false;
@@ -53,30 +69,9 @@ class ProgramBounds {
   bool is_unlit(const ShadedSurface& surface) const;
 
  private:
-  /// Where a value lies: its rate's values, and the place among them.
-  struct Place {
-    uint8_t rate = 0;
-    uint32_t slot = 0;
-  };
-  /// A node as it is evaluated.
-  struct Step {
-    programs::ProgramNode node;
-    std::array<Place, 3> from{};
-    uint32_t slot = 0;
-    uint32_t first_term = 0, terms = 0;  ///< of a sum: in terms_
-    bool squares = false;                ///< a product of a value with itself
-    bool of_unit_vector = false;         ///< a component of what normalize() makes
-    bool normalizes = false;             ///< the choice of normalize(): undefined of a vector of no length
-    uint32_t mixed = 0;                  ///< of mix(): one more than its place in mixes_
-  };
-  struct Term {
-    Place from;
-    bool negated = false;
-  };
-  /// x (1 - a) + y a, which drivers also compute as x + a (y - x).
-  struct Mix {
-    Place x, y, a;
-  };
+  using Place = ProgramPlace;
+  using Step = ProgramStep;
+  enum class Reach : uint8_t { none, perhaps_not_nominally, perhaps, surely };
   using Values = std::array<const Interval*, programs::kRateCount>;
   using Outcome = std::array<Interval, 3>;
 
@@ -94,7 +89,13 @@ class ProgramBounds {
   void run_pair(std::span<const Step> steps, Registers& registers, bool follow) const;
   Outcome outcome(Registers& registers) const;
   std::vector<Outcome> outcomes(Registers& registers, size_t& nominal) const;
-  enum class Reach : uint8_t { none, perhaps_not_nominally, perhaps, surely };
+  void look_at(const ShadedSurface& surface, Registers& registers) const;
+  ProgramLanes lanes_of(std::span<const Step> steps, programs::Rate rate, Block& block, uint32_t light,
+                        uint8_t* left) const;
+  void look_at(std::span<const ShadedSurface* const> surfaces, Block& block) const;
+  bool find_reached(const Light& light, std::span<const ShadedSurface* const> surfaces, Block& block) const;
+  void add(uint32_t light, size_t count, Block& block, std::span<BlockSum> sums) const;
+  
   Reach reach_of(const Light& light, const ShadedSurface& surface) const;
   const Interval& output(int number, const Values& values) const;
 
@@ -109,8 +110,8 @@ class ProgramBounds {
   std::vector<Step> constants_, of_lights_, of_surfaces_, of_pairs_, of_reaches_, of_sums_;
   std::vector<std::pair<uint32_t, uint32_t>> surface_inputs_;  ///< slot, and number in program_.inputs
   std::vector<std::pair<uint32_t, size_t>> sum_inputs_;        ///< slot, and channel
-  std::vector<Term> terms_;
-  std::vector<Mix> mixes_;
+  std::vector<ProgramTerm> terms_;
+  std::vector<ProgramMix> mixes_;
   std::vector<Interval> constant_values_;
   std::vector<std::vector<Interval>> light_values_;
 };

@@ -68,8 +68,11 @@ class LightingJudge {
     int x0 = 0, y0 = 0, x1 = 0;
     std::vector<ShadedSurface> surfaces;  ///< row by row; of pixels without one any
     LightColumns near;
-    std::vector<uint32_t> near_lights;           ///< of a light program
-    mutable ProgramBounds::Registers registers;  ///< the same
+    // Of a light program:
+    std::vector<uint32_t> near_lights;
+    std::vector<LitRange> lit;  ///< as surfaces
+    mutable ProgramBounds::Block block;
+    const LitRange& lit_at(int x, int y) const { return lit[size_t((y - y0) * (x1 - x0) + x - x0)]; }
     const ShadedSurface& at(int x, int y) const { return surfaces[size_t((y - y0) * (x1 - x0) + x - x0)]; }
   };
 
@@ -83,6 +86,7 @@ class LightingJudge {
     return settled_ != nullptr;
   }
   void look_at(int x0, int y0, int x1, int y1, Tile& tile) const;
+  void light_up(Tile& tile, const std::array<LightBounds::Span, 3>& box, int y1) const;
   uint32_t pixel_at(int x, int y) const { return uint32_t(y) * uint32_t(pipeline_.width) + uint32_t(x); }
   void take_program(const Capture& capture);
   struct Output {
@@ -177,7 +181,7 @@ LightingJudge::Output LightingJudge::output(const LitRange& lit, const std::arra
   Bounded3 sum = lit.color;
   for (size_t k = 0; k < 3; ++k) sum[k].value += change[k];
   if (program_) {
-    const ProgramBounds::Finished finished = program_->finished(surface, sum, tile.registers);
+    const ProgramBounds::Finished finished = program_->finished(surface, sum, tile.block.registers);
     for (size_t k = 0; k < 4; ++k) out.color[k] = range_of(finished.color[k]);
     out.undefined = finished.undefined;
     return out;
@@ -233,10 +237,28 @@ void LightingJudge::look_at(int x0, int y0, int x1, int y1, Tile& tile) const {
         box[k].high = is_known ? std::max(box[k].high, high) : HUGE_VAL;
       }
     }
-  if (program_)
-    program_->take_near(box, tile.near_lights);
-  else
-    lights_.take_near(box, tile.near);
+  if (program_) return light_up(tile, box, y1);
+  lights_.take_near(box, tile.near);
+}
+
+/// The sums of a light program at all surfaces of the tile, by squares of pixels.
+void LightingJudge::light_up(Tile& tile, const std::array<LightBounds::Span, 3>& box, int y1) const {
+  constexpr int kSide = 8;
+  static_assert(size_t(kSide * kSide) <= kIntervalLanes);
+  program_->take_near(box, tile.near_lights);
+  tile.lit.resize(tile.surfaces.size());
+  std::array<const ShadedSurface*, kIntervalLanes> surfaces;
+  std::array<LitRange, kIntervalLanes> lit;
+  for (int top = tile.y0; top < y1; top += kSide)
+    for (int left = tile.x0; left < tile.x1; left += kSide) {
+      size_t count = 0;
+      for (int y = top; y < std::min(top + kSide, y1); ++y)
+        for (int x = left; x < std::min(left + kSide, tile.x1); ++x)
+          if (surface_.covered(x, y)) surfaces[count++] = &tile.at(x, y);
+      if (count == 0) continue;
+      program_->at({surfaces.data(), count}, tile.near_lights, tile.block, lit);
+      for (size_t i = 0; i < count; ++i) tile.lit[size_t(surfaces[i] - tile.surfaces.data())] = std::move(lit[i]);
+    }
 }
 
 void LightingJudge::judge_pixel(int x, int y, const Tile& tile, RowTally& row) const {
@@ -244,8 +266,7 @@ void LightingJudge::judge_pixel(int x, int y, const Tile& tile, RowTally& row) c
   if (!surface_.covered(x, y)) return judge_uncovered(x, y, row);
   ++row.covered;
   const ShadedSurface& surface = tile.at(x, y);
-  const LitRange lit =
-      program_ ? program_->at(surface, tile.near_lights, tile.registers) : lights_.at(surface, tile.near);
+  const LitRange lit = program_ ? tile.lit_at(x, y) : lights_.at(surface, tile.near);
   const Output as_real = output(lit, {}, surface, tile);
   if (lit.undefined || as_real.undefined) return row.take(x, y, PixelClass::undefined, {}, "");
   if (!lit.branches.empty()) row.may_be_other(pixel_at(x, y), pixel_at(x, y), 0.5);

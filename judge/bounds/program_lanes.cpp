@@ -1,0 +1,19 @@
+#include "judge/bounds/program_lanes.h"
+
+#include "core/simd/dispatch.h"
+
+namespace trueshade::oracle {
+
+Interval LaneInterval::at(size_t lane) const {
+  const bool anything = low[lane] == -HUGE_VAL && high[lane] == HUGE_VAL;
+  return {value[lane], low[lane], high[lane], anything};
+}
+
+void LaneInterval::set(size_t lane, const Interval& x) {
+  value[lane] = x.value;
+  low[lane] = x.maybe_nan ? -HUGE_VAL : x.low, high[lane] = x.maybe_nan ? HUGE_VAL : x.high;
+}
+
+void run_program_lanes(const ProgramLanes& in) { kernel<run_program_lanes>()(in); }
+
+}  // namespace trueshade::oracle

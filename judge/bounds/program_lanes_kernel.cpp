@@ -1,0 +1,360 @@
+#include "core/simd/one_target.h"
+
+#include <hwy/highway.h>
+
+#include <limits>
+
+#include "judge/bounds/program_lanes.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trueshade::oracle::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using programs::Op;
+using D = hn::ScalableTag<double>;
+using DI = hn::RebindToSigned<D>;
+using V = hn::Vec<D>;
+using VI = hn::Vec<DI>;
+using M = hn::Mask<D>;
+
+/// A lane's Interval.
+struct Three {
+  V value, low, high;
+};
+
+HWY_INLINE V number(double x) { return hn::Set(D(), x); }
+HWY_INLINE Three anything(V value) { return {value, number(-HUGE_VAL), number(HUGE_VAL)}; }
+HWY_INLINE M is_anything(const Three& x) {
+  return hn::And(hn::Eq(x.low, number(-HUGE_VAL)), hn::Eq(x.high, number(HUGE_VAL)));
+}
+HWY_INLINE Three chosen(M condition, const Three& x, const Three& y) {
+  return {hn::IfThenElse(condition, x.value, y.value), hn::IfThenElse(condition, x.low, y.low),
+          hn::IfThenElse(condition, x.high, y.high)};
+}
+HWY_INLINE Three negated(const Three& x) { return {hn::Neg(x.value), hn::Neg(x.high), hn::Neg(x.low)}; }
+HWY_INLINE V size_of(const Three& x) { return hn::Max(hn::Abs(x.low), hn::Abs(x.high)); }
+
+/// Where the results of steps lie, and what rounds them.
+class Lanes {
+ public:
+  explicit Lanes(const ProgramLanes& in) : in_(in), to_nearest_(in.arithmetic.roundoff <= 0x1p-24) {}
+
+  void run() {
+    for (const ProgramStep& step : in_.steps)
+      for (size_t i = 0; i < kIntervalLanes; i += hn::Lanes(D())) run(step, i);
+  }
+
+ private:
+  Three load(const ProgramPlace& p, size_t i) const {
+    const D d;
+    if (in_.lanes[p.rate] != nullptr) {
+      const LaneInterval& x = in_.lanes[p.rate][p.slot];
+      return {hn::Load(d, &x.value[i]), hn::Load(d, &x.low[i]), hn::Load(d, &x.high[i])};
+    }
+    const Interval& x = in_.one[p.rate][p.slot];
+    if (x.maybe_nan) return anything(number(x.value));
+    return {number(x.value), number(x.low), number(x.high)};
+  }
+
+  void store(const ProgramStep& step, size_t i, const Three& x) const {
+    const D d;
+    LaneInterval& out = in_.out[step.slot];
+    hn::Store(x.value, d, &out.value[i]), hn::Store(x.low, d, &out.low[i]), hn::Store(x.high, d, &out.high[i]);
+  }
+
+  /// Doubles cut to the 24 bits of a float after `positive` or `negative` was added to the bits below.
+  V to_floats(V x, int64_t positive, int64_t negative) const {
+    constexpr int64_t kBelow = (int64_t(1) << 29) - 1;
+    const DI d;
+    const VI more = hn::IfThenElse(hn::RebindMask(d, hn::Lt(x, hn::Zero(D()))), hn::Set(d, negative), hn::Set(d, positive));
+    return hn::BitCast(D(), hn::And(hn::Add(hn::BitCast(d, x), more), hn::Set(d, ~kBelow)));
+  }
+
+  /// rounded() of interval.h: ends move outward to floats, or to the nearest ones, and ties outward.
+  Three rounded(Three x) const {
+    constexpr int64_t kAll = (int64_t(1) << 29) - 1, kHalf = int64_t(1) << 28;
+    x.low = to_nearest_ ? to_floats(x.low, kHalf - 1, kHalf) : to_floats(x.low, 0, kAll);
+    x.high = to_nearest_ ? to_floats(x.high, kHalf, kHalf - 1) : to_floats(x.high, kAll, 0);
+    return in_floats(x);
+  }
+
+  /// What is below 2^-126 may be flushed, what is beyond the largest float infinite; NaN is anything.
+  Three in_floats(Three x) const {
+    const V zero = hn::Zero(D()), least = number(kSmallestFloat);
+    const V most = number(double(std::numeric_limits<float>::max()));
+    const auto small = [&](V v) { return hn::Lt(hn::Abs(v), least); };
+    x.low = hn::IfThenElse(small(x.low), hn::IfThenElse(hn::Lt(x.low, zero), hn::Neg(least), zero), x.low);
+    x.high = hn::IfThenElse(small(x.high), hn::IfThenElse(hn::Gt(x.high, zero), least, zero), x.high);
+    x.high = hn::IfThenElse(hn::Gt(x.high, most), number(HUGE_VAL), x.high);
+    x.low = hn::IfThenElse(hn::Lt(x.low, hn::Neg(most)), number(-HUGE_VAL), x.low);
+    x.low = hn::Min(x.low, most), x.high = hn::Max(x.high, hn::Neg(most));
+    const M wrong = hn::Or(hn::IsNaN(x.low), hn::IsNaN(x.high));
+    return chosen(wrong, anything(x.value), x);
+  }
+
+  /// within() of interval.h without an absolute error.
+  Three within(Three x, double relative) const {
+    const V zero = hn::Zero(D()), r = number(relative);
+    const V low = hn::Sub(x.low, hn::Mul(r, hn::Abs(x.low))), high = hn::Add(x.high, hn::Mul(r, hn::Abs(x.high)));
+    x.low = hn::IfThenElse(hn::Ge(x.low, zero), hn::Max(zero, low), low);
+    x.high = hn::IfThenElse(hn::Le(x.high, zero), hn::Min(zero, high), high);
+    return in_floats(x);
+  }
+
+  Three sum(const ProgramStep& step, size_t i) const {
+    V magnitude = hn::Zero(D()), least = number(HUGE_VAL), most = number(-HUGE_VAL);
+    Three out{magnitude, magnitude, magnitude};
+    for (uint32_t k = 0; k < step.terms; ++k) {
+      const ProgramTerm& term = in_.terms[step.first_term + k];
+      Three x = load(term.from, i);
+      if (term.negated) x = negated(x);
+      out.value = hn::Add(out.value, x.value), out.low = hn::Add(out.low, x.low), out.high = hn::Add(out.high, x.high);
+      magnitude = hn::Add(magnitude, size_of(x));
+      least = hn::Min(least, x.low), most = hn::Max(most, x.high);
+    }
+    return summed(step, i, out, magnitude, least, most);
+  }
+
+  Three summed(const ProgramStep& step, size_t i, Three out, V magnitude, V least, V most) const {
+    const V zero = hn::Zero(D()), unit = number(double(step.terms - 2) * in_.arithmetic.roundoff);
+    const V partial = hn::Mul(unit, magnitude);
+    if (step.terms > 2) out.low = hn::Sub(out.low, partial), out.high = hn::Add(out.high, partial);
+    out.low = hn::IfThenElse(hn::Ge(least, zero), hn::Max(out.low, zero), out.low);
+    out.high = hn::IfThenElse(hn::Le(most, zero), hn::Min(out.high, zero), out.high);
+    out = rounded(out);
+    if (step.mixed == 0) return out;
+    const ProgramMix& mix = in_.mixes[step.mixed - 1];
+    const V factors = hn::Mul(size_of(load(mix.a, i)), hn::Add(size_of(load(mix.x, i)), size_of(load(mix.y, i))));
+    const V other = hn::Mul(number(2 * in_.arithmetic.roundoff), factors);
+    return {out.value, hn::Sub(out.low, other), hn::Add(out.high, other)};
+  }
+
+  Three two_terms(const Three& x, const Three& y) const {
+    const V zero = hn::Zero(D());
+    Three out{hn::Add(x.value, y.value), hn::Add(x.low, y.low), hn::Add(x.high, y.high)};
+    out.low = hn::IfThenElse(hn::Ge(hn::Min(x.low, y.low), zero), hn::Max(out.low, zero), out.low);
+    out.high = hn::IfThenElse(hn::Le(hn::Max(x.high, y.high), zero), hn::Min(out.high, zero), out.high);
+    return rounded(out);
+  }
+
+  template <class F>
+  Three of_corners(const Three& x, const Three& y, F f) const {
+    const V a = f(x.low, y.low), b = f(x.low, y.high), c = f(x.high, y.low), e = f(x.high, y.high);
+    const M wrong = hn::IsNaN(hn::Add(hn::Add(a, b), hn::Add(c, e)));
+    const Three out{f(x.value, y.value), hn::Min(hn::Min(a, b), hn::Min(c, e)), hn::Max(hn::Max(a, b), hn::Max(c, e))};
+    return chosen(wrong, anything(out.value), out);
+  }
+
+  Three product(const ProgramStep& step, const Three& x, const Three& y) const {
+    if (step.squares) {
+      const M across = hn::And(hn::Le(x.low, hn::Zero(D())), hn::Ge(x.high, hn::Zero(D())));
+      const V least = hn::IfThenZeroElse(across, hn::Min(hn::Abs(x.low), hn::Abs(x.high))), most = size_of(x);
+      const Three out = rounded({hn::Mul(x.value, x.value), hn::Mul(least, least), hn::Mul(most, most)});
+      return chosen(is_anything(x), x, out);
+    }
+    return rounded(of_corners(x, y, [](V a, V b) { return hn::Mul(a, b); }));
+  }
+
+  Three quotient(const Three& x, const Three& y) const {
+    const V zero = hn::Zero(D());
+    const M by_zero = hn::And(hn::Le(y.low, zero), hn::Ge(y.high, zero));
+    Three out = of_corners(x, y, [](V a, V b) { return hn::Div(a, b); });
+    const M far = hn::Gt(size_of(y), number(0x1p126));
+    out.low = hn::IfThenElse(far, hn::Min(out.low, zero), out.low);
+    out.high = hn::IfThenElse(far, hn::Max(out.high, zero), out.high);
+    out = in_.arithmetic.divide <= 0x1p-24 ? rounded(out) : within(out, in_.arithmetic.divide);
+    return chosen(by_zero, anything(hn::IfThenElseZero(hn::Ne(y.value, zero), out.value)), out);
+  }
+
+  Three root(const Three& x, bool inverse) const {
+    const V zero = hn::Zero(D()), one = number(1);
+    const M wrong = hn::Lt(x.low, zero);
+    const V low = hn::Max(x.low, zero), high = hn::Max(x.high, zero), value = hn::Max(x.value, zero);
+    Three out{hn::Sqrt(value), hn::Sqrt(low), hn::Sqrt(high)};
+    if (inverse) {
+      out = {hn::IfThenElseZero(hn::Gt(value, zero), hn::Div(one, out.value)), hn::Div(one, out.high), hn::Div(one, out.low)};
+      out = within(out, in_.arithmetic.inverse_sqrt);
+    } else {
+      out = in_.arithmetic.square_root <= 0x1p-24 ? rounded(out) : within(out, in_.arithmetic.square_root);
+    }
+    return chosen(wrong, anything(out.value), out);
+  }
+
+  /// Truth: 0 or 1. Lanes where neither is sure are left.
+  Three truth(M nominal, M perhaps, M perhaps_not, size_t i) const {
+    const V one = number(1), zero = hn::Zero(D());
+    if (in_.left != nullptr) {
+      const M open = hn::And(perhaps, perhaps_not);
+      if (!hn::AllFalse(D(), open)) {
+        HWY_ALIGN double is_open[hn::MaxLanes(D())];
+        hn::Store(hn::IfThenElseZero(open, one), D(), is_open);
+        for (size_t k = 0; k < hn::Lanes(D()); ++k)
+          if (is_open[k] != 0) in_.left[i + k] = 1;
+      }
+    }
+    return {hn::IfThenElse(nominal, one, zero), hn::IfThenElse(perhaps_not, zero, one), hn::IfThenElse(perhaps, one, zero)};
+  }
+
+  Three compared(Op op, const Three& x, const Three& y, size_t i) const {
+    const M overlap = hn::And(hn::Le(x.low, y.high), hn::Le(y.low, x.high));
+    const M same = hn::And(hn::And(hn::Eq(x.low, x.high), hn::Eq(y.low, y.high)), hn::Eq(x.low, y.low));
+    const M nan = hn::Or(is_anything(x), is_anything(y));
+    switch (op) {
+      case Op::f_eq:
+      case Op::i_eq:
+        return truth(hn::Eq(x.value, y.value), overlap, hn::Not(same), i);
+      case Op::f_ne:
+        return truth(hn::Ne(x.value, y.value), hn::Not(same), overlap, i);
+      case Op::f_le:
+        return truth(hn::Le(x.value, y.value), hn::Or(nan, hn::Le(x.low, y.high)), hn::Or(nan, hn::Gt(x.high, y.low)), i);
+      default:
+        return truth(hn::Lt(x.value, y.value), hn::Or(nan, hn::Lt(x.low, y.high)), hn::Or(nan, hn::Ge(x.high, y.low)), i);
+    }
+  }
+
+  Three selected(const Three& condition, const Three& x, const Three& y) const {
+    const V zero = hn::Zero(D());
+    const M surely = hn::Gt(condition.low, zero), never = hn::Le(condition.high, zero);
+    const Three both{hn::IfThenElse(hn::Ne(condition.value, zero), x.value, y.value), hn::Min(x.low, y.low),
+                     hn::Max(x.high, y.high)};
+    return chosen(surely, x, chosen(never, y, both));
+  }
+
+  /// x^s of a whole s from 1 to 64 by squaring, s 2^-52 of itself off; |log2 x| from above by the exponent's bits, or
+  /// next to 1 by |x - 1| / min(x, 1).
+  static V powered(V x, int s) {
+    V result = number(1);
+    for (;; x = hn::Mul(x, x)) {
+      if ((s & 1) != 0) result = hn::Mul(result, x);
+      if ((s >>= 1) == 0) return result;
+    }
+  }
+  V power_error(V x, int s) const {
+    if (in_.arithmetic.exact_pow) return number(0x1p-24 + 0x1p-45 * s);
+    constexpr double kUlp = 0x1p-23, kLn2 = 0.69314718055994531;
+    const DI d;
+    const V exponent = hn::ConvertTo(D(), hn::Sub(hn::ShiftRight<52>(hn::BitCast(d, x)), hn::Set(d, int64_t(1023))));
+    const V by_bits = hn::Max(hn::Abs(exponent), hn::Abs(hn::Add(exponent, number(1))));
+    const M near_one = hn::And(hn::Ge(x, number(0.5)), hn::Le(x, number(2)));
+    const V close = hn::Div(hn::Abs(hn::Sub(x, number(1))), hn::Min(x, number(1)));
+    const V log2_x = hn::IfThenElse(near_one, hn::Mul(close, number(1 / kLn2)), by_bits);
+    const V y = hn::Mul(log2_x, number(s));
+    const V log2_error = hn::IfThenElse(near_one, number(0x1p-21 * s), hn::Mul(y, number(3 * kUlp)));
+    const V q = hn::Mul(hn::Add(log2_error, hn::Mul(y, number(in_.arithmetic.roundoff))), number(kLn2));
+    const V own = hn::Mul(hn::Add(hn::Add(y, y), number(3)), number(kUlp));
+    const V error = hn::Add(hn::Add(hn::Mul(q, hn::Add(q, number(1))), own), number(0x1p-45 * s));
+    return hn::IfThenElse(hn::Le(q, number(1)), error, number(HUGE_VAL));
+  }
+  Three power(const Three& x, int s) const {
+    const V zero = hn::Zero(D()), one = number(1);
+    const V low = hn::Max(x.low, zero), high = hn::Max(x.high, zero);
+    const auto of = [&](V v, bool above) {
+      const M none = hn::Eq(v, zero);
+      const V error = power_error(v, s), factor = above ? hn::Add(one, error) : hn::Max(zero, hn::Sub(one, error));
+      return hn::IfThenZeroElse(none, hn::Mul(powered(v, s), factor));
+    };
+    const Three out{powered(hn::Max(x.value, zero), s), of(low, false), of(high, true)};
+    const M beyond = hn::Gt(out.high, number(double(std::numeric_limits<float>::max())));
+    return chosen(hn::Or(hn::Lt(x.low, zero), beyond), anything(out.value), in_floats(out));
+  }
+
+  /// Whether the exponent is one whole number for all lanes.
+  int whole_exponent(const ProgramPlace& p) const {
+    if (in_.lanes[p.rate] != nullptr) return 0;
+    const Interval& y = in_.one[p.rate][p.slot];
+    return y.known() && y.value >= 1 && y.value <= 64 && y.value == double(int(y.value)) ? int(y.value) : 0;
+  }
+
+  /// A lane at a time.
+  void run_one_by_one(const ProgramStep& step, size_t i) const {
+    const IntervalArithmetic of(in_.arithmetic);
+    const auto at = [&](const ProgramPlace& p, size_t lane) {
+      return in_.lanes[p.rate] != nullptr ? in_.lanes[p.rate][p.slot].at(lane) : in_.one[p.rate][p.slot];
+    };
+    for (size_t lane = i; lane < i + hn::Lanes(D()); ++lane)
+      in_.out[step.slot].set(lane, of(step.node, at(step.from[0], lane), at(step.from[1], lane), at(step.from[2], lane)));
+  }
+
+  void run(const ProgramStep& step, size_t i) const {
+    if (step.terms > 0) return store(step, i, sum(step, i));
+    const Op op = step.node.op;
+    const Three x = load(step.from[0], i);
+    const V zero = hn::Zero(D()), one = number(1);
+    switch (op) {
+      case Op::f_add:
+        return store(step, i, two_terms(x, load(step.from[1], i)));
+      case Op::f_sub:
+        return store(step, i, two_terms(x, negated(load(step.from[1], i))));
+      case Op::f_mul: {
+        Three out = product(step, x, load(step.from[1], i));
+        if (step.of_unit_vector) {
+          const V most = number(largest_of_unit(in_.arithmetic)), least = hn::Neg(most);
+          const Three bounded{out.value, hn::Clamp(out.low, least, most), hn::Clamp(out.high, least, most)};
+          out = chosen(is_anything(out), out, bounded);
+        }
+        return store(step, i, out);
+      }
+      case Op::f_div:
+        return store(step, i, quotient(x, load(step.from[1], i)));
+      case Op::f_sqrt:
+        return store(step, i, root(x, false));
+      case Op::f_inverse_sqrt:
+        return store(step, i, root(x, true));
+      case Op::f_neg:
+        return store(step, i, negated(x));
+      case Op::f_abs: {
+        const M across = hn::And(hn::Le(x.low, zero), hn::Ge(x.high, zero));
+        const V least = hn::IfThenZeroElse(across, hn::Min(hn::Abs(x.low), hn::Abs(x.high)));
+        return store(step, i, chosen(is_anything(x), x, {hn::Abs(x.value), least, size_of(x)}));
+      }
+      case Op::f_min:
+      case Op::f_max: {
+        const Three y = load(step.from[1], i);
+        const Three out = op == Op::f_min
+                              ? Three{hn::Min(x.value, y.value), hn::Min(x.low, y.low), hn::Min(x.high, y.high)}
+                              : Three{hn::Max(x.value, y.value), hn::Max(x.low, y.low), hn::Max(x.high, y.high)};
+        return store(step, i, chosen(hn::Or(is_anything(x), is_anything(y)), anything(out.value), out));
+      }
+      case Op::f_eq:
+      case Op::f_ne:
+      case Op::f_lt:
+      case Op::f_le:
+      case Op::i_eq:
+      case Op::i_lt:
+      case Op::u_lt:
+        return store(step, i, compared(op, x, load(step.from[1], i), i));
+      case Op::select: {
+        Three out = selected(x, load(step.from[1], i), load(step.from[2], i));
+        if (step.normalizes && !in_.arithmetic.exact_pow)
+          out = chosen(hn::Gt(x.low, zero), out, anything(out.value));
+        return store(step, i, out);
+      }
+      case Op::b_not:
+        return store(step, i, {hn::Sub(one, x.value), hn::Sub(one, x.high), hn::Sub(one, x.low)});
+      case Op::b_and:
+      case Op::b_or: {
+        const Three y = load(step.from[1], i);
+        if (op == Op::b_and)
+          return store(step, i, {hn::Min(x.value, y.value), hn::Min(x.low, y.low), hn::Min(x.high, y.high)});
+        return store(step, i, {hn::Max(x.value, y.value), hn::Max(x.low, y.low), hn::Max(x.high, y.high)});
+      }
+      case Op::pow:
+        if (const int s = whole_exponent(step.from[1]); s > 0) return store(step, i, power(x, s));
+        return run_one_by_one(step, i);
+      default:
+        return run_one_by_one(step, i);
+    }
+  }
+
+  const ProgramLanes& in_;
+  const bool to_nearest_;
+};
+
+void run_program_lanes_simd(const ProgramLanes& in) { Lanes(in).run(); }
+
+}  // namespace trueshade::oracle::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+namespace trueshade {
+TRUESHADE_KERNEL(oracle::run_program_lanes, oracle::HWY_NAMESPACE::run_program_lanes_simd);
+}  // namespace trueshade

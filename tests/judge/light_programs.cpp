@@ -1,0 +1,261 @@
+// The judge over light programs: whatever a driver may compute lies within its bounds, these are as tight as those of
+// the closed form, and frames that are wrong are convicted.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "core/simd/simd_target.h"
+#include "judge/bounds/program_bounds.h"
+#include "judge/bounds/profile.h"
+#include "judge/stages/validate.h"
+#include "programs/front/light_program.h"
+#include "scenes/builtin/builtin.h"
+#include "scenes/pipeline/presets.h"
+#include "shading/program/program_frame.h"
+#include "tests/catch.hpp"
+#include "tests/judge/captured.h"
+#include "tests/judge/loose_program.h"
+
+using namespace trueshade;
+using namespace trueshade::oracle;
+using namespace trueshade::testing;
+
+namespace {
+
+constexpr const char* kModels[] = {"many_lights", "light_volumes", "ggx",       "ggx_of_docs",
+                                   "filament",    "disney",        "frostbite", "bevy"};
+
+/// Formulas that the models do not have: exponentials, angles, choices, mix(), a hard edge, an integer.
+constexpr const char* kMixture = R"glsl(
+vec3 light(Surface s, Light l, View v) {
+  vec3 d = l.position - s.position, n = normalize(s.normal), to = normalize(d);
+  float size = length(d), band = floor(size * 4.0), c = clamp(dot(n, to), -1.0, 1.0);
+  vec3 cold = mix(vec3(0.1, 0.2, 0.9), s.albedo.rgb, smoothstep(-0.5, 1.0, c));
+  float wave = 0.5 + 0.5 * sin(3.0 * c) * cos(size), edge = size > 2.0 ? 0.25 : 1.0;
+  float fog = exp(-0.3 * size) + exp2(-size) + log(1.0 + size) * 0.01, angle = acos(c) / 3.14159265;
+  if (l.index % 2u == 0u) wave *= 0.5;
+  return cold * l.color * (wave * edge * fog + step(0.3, c) * pow(angle, 1.7)) / (1.0 + band);
+}
+)glsl";
+
+std::string file_text(const std::string& path) {
+  std::ifstream file(std::string(TRUESHADE_SOURCE_DIR) + '/' + path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+LightProgram model(const std::string& name) {
+  if (name == "mixture") return {"mixture.glsl", kMixture, {}, {}};
+  if (name != "ggx_of_docs") return {name + ".glsl", file_text("tests/programs/models/" + name + ".glsl"), {}, {}};
+  const std::string page = file_text("docs/light_programs.md");
+  const size_t from = page.find("```glsl\n") + 8;
+  return {"ggx.glsl", page.substr(from, page.find("```", from) - from), {}, {{"gain", {8}}}};
+}
+
+glm::vec3 somewhere(Pcg32& random, double reach) {
+  return {random.between(-reach, reach), random.between(-reach, reach), random.between(-reach, reach)};
+}
+
+Scene scene_of(Pcg32& random, int lights) {
+  Scene scene;
+  scene.camera.eye = somewhere(random, 4);
+  for (int i = 0; i < lights; ++i) {
+    Light light;
+    light.type = i % 5 == 3 ? LightType::spot : LightType::point;
+    light.position = somewhere(random, 3);
+    light.direction = {0.0f, -0.6f, -0.8f};
+    light.color = {random.between(0, 2), random.between(0, 2), random.between(0, 2)};
+    light.range = float(random.between(1, 8));
+    light.cone_rad = 0.7f, light.penumbra_rad = 0.5f;
+    scene.lights.push_back(light);
+  }
+  return scene;
+}
+
+ShadedSurface surface_of(Pcg32& random) {
+  ShadedSurface s;
+  const glm::vec3 p = somewhere(random, 3), n = somewhere(random, 1);
+  for (size_t k = 0; k < 3; ++k) {
+    s.position[k] = {double(p[int(k)]), 0}, s.normal[k] = {double(n[int(k)]), 0};
+    s.albedo[k] = {double(float(random.between(0, 1))), 0}, s.specular[k] = {double(float(random.between(0, 1))), 0};
+  }
+  s.albedo[3] = {1, 0};
+  s.shininess = 32;
+  s.object = 3, s.material = 1, s.pixel = {7, 9};
+  return s;
+}
+
+Pipeline pipeline_of(const LightProgram& program) {
+  Pipeline p;
+  p.width = 64, p.height = 48;
+  p.light_program = program;
+  p.light_volumes.point = p.light_volumes.spot = LightExtent::range;
+  return with_planes_of_program(p);
+}
+
+double component(const std::string& name, const glm::vec3& v) { return double(v[name.back() - 'x']); }
+
+/// What a driver is given, by name. Cones by the formula of docs/arithmetic.md.
+double input_of(const std::string& name, const ShadedSurface& s, const Scene& scene, uint32_t i,
+                const LightProgram& program) {
+  const Light& l = scene.lights[i];
+  const auto is = [&](const char* field) { return name.starts_with(field); };
+  const auto of = [&](const auto& planes) { return planes[size_t(name.back() == 'w' ? 3 : name.back() - 'x')].value; };
+  const double cone = double(l.cone_rad), outer = std::cos(cone + double(l.penumbra_rad));
+  const double width = 1 / std::max(0.001, std::cos(cone) - outer);
+  if (is("surface.position")) return of(s.position);
+  if (is("surface.normal")) return of(s.normal);
+  if (is("surface.albedo")) return of(s.albedo);
+  if (is("surface.roughness")) return s.specular[1].value;
+  if (is("surface.metallic")) return s.specular[0].value;
+  if (is("light.type")) return double(l.type);
+  if (is("light.index")) return i;
+  if (is("light.position")) return component(name, l.position);
+  if (is("light.direction")) return component(name, l.direction);
+  if (is("light.color")) return component(name, l.color);
+  if (is("light.range")) return double(l.range);
+  if (is("light.cone_scale")) return double(float(width));
+  if (is("light.cone_offset")) return double(float(-outer * width));
+  if (is("view.eye")) return component(name, scene.camera.eye);
+  if (is("parameters.")) return double(program.parameters.at(0).value.at(0));
+  if (!is("sum.")) FAIL("no value of " << name);
+  return 0;
+}
+
+/// Whether the sum that `lit` bounds may be this: of any branches.
+bool holds(const LitRange& lit, const std::vector<double>& color) {
+  for (size_t set = 0; set < size_t(1) << lit.branches.size(); ++set) {
+    bool inside = true;
+    for (size_t k = 0; k < 3; ++k) {
+      double value = lit.color[k].value;
+      for (size_t i = 0; i < lit.branches.size(); ++i)
+        if ((set >> i & 1) != 0) value += lit.branches[i].change[k];
+      inside = inside && std::fabs(color[k] - value) <= lit.color[k].error;
+    }
+    if (inside) return true;
+  }
+  return false;
+}
+
+struct Held {
+  int asked = 0, undefined = 0, outside = 0, branches = 0;
+  double used = 0;  ///< of the largest bound, at most
+};
+
+/// Surfaces under one light each, by a driver with no scruples.
+Held held(const std::string& name, int surfaces, uint64_t seed) {
+  Pcg32 random(seed, 5);
+  const LightProgram text = model(name);
+  const programs::Program program = programs::program_from_glsl(text.file, text.text);
+  LooseProgram driver(program, random);
+  Held out;
+  const Scene scene = scene_of(random, 100);
+  Pipeline pipeline = pipeline_of(text);
+  pipeline.light_volumes.point = pipeline.light_volumes.spot = LightExtent::unbounded;
+  const ProgramBounds bounds(scene, pipeline, Profile{}.arithmetic);
+  ProgramBounds::Registers registers;
+  for (int i = 0; i < surfaces; ++i) {
+    const ShadedSurface surface = surface_of(random);
+    const uint32_t lights[] = {uint32_t(i) % 100};
+    const LitRange lit = bounds.at(surface, lights, registers);
+    for (int k = 0; k < 8; ++k) {
+      ++out.asked;
+      if (lit.undefined) {
+        ++out.undefined;
+        continue;
+      }
+      const std::vector<double> color =
+          driver.outputs([&](const std::string& input) { return input_of(input, surface, scene, lights[0], text); });
+      out.outside += !holds(lit, color);
+      out.branches += !lit.branches.empty();
+      for (size_t c = 0; c < 3 && lit.branches.empty(); ++c)
+        if (lit.color[c].error > 1e-30)
+          out.used = std::max(out.used, std::fabs(color[c] - lit.color[c].value) / lit.color[c].error);
+    }
+  }
+  return out;
+}
+
+void check_held(int surfaces) {
+  for (const char* name : {"mixture", "many_lights", "light_volumes", "ggx", "ggx_of_docs", "filament", "disney", "frostbite", "bevy"}) {
+    const Held h = held(name, surfaces, 11);
+    INFO(name << ": asked " << h.asked << ", undefined " << h.undefined << ", at a threshold " << h.branches
+              << ", the farthest " << h.used << " of its bound");
+    CHECK(h.outside == 0);
+    CHECK(h.undefined <= h.asked / 100);
+    CHECK(h.used > 0.2);  // a driver that takes no liberty would prove nothing
+  }
+}
+
+}  // namespace
+
+TEST_CASE("What a driver may compute of a light program lies within its bounds") { check_held(150); }
+
+TEST_CASE("What a driver may compute of a light program lies within its bounds, at 20,000 surfaces", "[long]") {
+  check_held(20000);
+}
+
+TEST_CASE("Light programs judged in lanes have the lights and branches of one by one, and bounds about as large") {
+  for (const std::string_view target : simd_targets()) {
+    const SimdScope scope(target);
+    for (const char* name : kModels) {
+      Pcg32 random(21, 5);
+      const Scene scene = scene_of(random, 40);
+      const ProgramBounds bounds(scene, pipeline_of(model(name)), Profile{}.arithmetic);
+      ProgramBounds::Block block;
+      ProgramBounds::Registers registers;
+      std::vector<uint32_t> lights(scene.lights.size());
+      for (uint32_t i = 0; i < lights.size(); ++i) lights[i] = i;
+      int branches = 0;
+      for (int round = 0; round < 20; ++round) {
+        std::vector<ShadedSurface> surfaces;
+        std::vector<const ShadedSurface*> asked;
+        for (size_t i = 0; i < kIntervalLanes - size_t(round % 3); ++i) surfaces.push_back(surface_of(random));
+        for (const ShadedSurface& s : surfaces) asked.push_back(&s);
+        std::vector<LitRange> together(asked.size());
+        bounds.at(asked, lights, block, together);
+        for (size_t i = 0; i < asked.size(); ++i) {
+          const LitRange alone = bounds.at(surfaces[i], lights, registers);
+          INFO(name << " on " << target << ", surface " << i);
+          REQUIRE(together[i].undefined == alone.undefined);
+          REQUIRE(together[i].lights_low == alone.lights_low);
+          REQUIRE(together[i].lights_high == alone.lights_high);
+          REQUIRE(together[i].branches.size() == alone.branches.size());
+          branches += int(alone.branches.size());
+          for (size_t k = 0; k < 3 && !alone.undefined; ++k) {
+            REQUIRE(together[i].color[k].value == Approx(alone.color[k].value).epsilon(1e-12));
+            REQUIRE(together[i].color[k].error >= alone.color[k].error * (1 - 1e-9));
+            REQUIRE(together[i].color[k].error <= alone.color[k].error * 1.1 + 1e-30);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("The bounds of many-lights as a program are as tight as those of its closed form") {
+  const Pipeline preset = *preset_pipeline("many-lights"), program = pipeline_of(model("many_lights"));
+  Pcg32 random(3, 5);
+  const Scene lights = scene_of(random, 30);
+  const Arithmetic arithmetic = Profile{}.arithmetic;
+  const LightBounds closed(lights, preset.light_model, {0, 0, 1}, arithmetic, false, program.light_volumes);
+  const ProgramBounds general(lights, program, arithmetic);
+  ProgramBounds::Registers registers;
+  std::vector<uint32_t> all(lights.lights.size());
+  for (uint32_t i = 0; i < all.size(); ++i) all[i] = i;
+  std::vector<double> quotients;
+  for (int i = 0; i < 3000; ++i) {
+    ShadedSurface surface = surface_of(random);
+    const LitRange a = closed.one_by_one(surface), b = general.at(surface, all, registers);
+    for (size_t k = 0; k < 3 && !a.undefined && !b.undefined && a.branches.empty() && b.branches.empty(); ++k) {
+      REQUIRE(a.color[k].value == Approx(b.color[k].value).epsilon(1e-9));
+      if (a.color[k].error > 1e-20) quotients.push_back(b.color[k].error / a.color[k].error);
+    }
+  }
+  std::sort(quotients.begin(), quotients.end());
+  REQUIRE(quotients.size() > 5000);
+  const double median = quotients[quotients.size() / 2], most = quotients[quotients.size() * 99 / 100];
+  INFO("median " << median << ", 99 % " << most << ", largest " << quotients.back());
+  CHECK(median <= 1.0);
+  CHECK(most <= 1.25);
+}
