@@ -87,6 +87,9 @@ void check_light_model(const LightModel& m) {
   for (int k = 0; k < 3; ++k)
     require_real(m.global_ambient[k], 0.0f, 1e18f, "light_model.global_ambient", "each 0 to 1e18");
   require_real(m.damping, 0.0f, 1e18f, "light_model.damping", "0 to 1e18");
+}
+
+void check_order(const LightModel& m) {
   require(
       m.order != TermOrder::albedo_last || m.specular == Specular::none || m.specular_source == SpecularSource::albedo,
       "light_model.order", "albedo_last with a specular colour that is not the albedo",
@@ -146,6 +149,7 @@ void validate(const Pipeline& pipeline) {
   check_geometry(pipeline.geometry);
   check_gbuffer(pipeline.gbuffer);
   check_light_model(pipeline.light_model);
+  if (!pipeline.light_program.used()) check_order(pipeline.light_model);
   check_light_volumes(pipeline.light_volumes);
   check_blend(pipeline.blend, "blend");
   check_transparency(pipeline);

@@ -259,3 +259,126 @@ TEST_CASE("The bounds of many-lights as a program are as tight as those of its c
   CHECK(median <= 1.0);
   CHECK(most <= 1.25);
 }
+
+namespace {
+
+/// A fault as people make it in a light's GLSL.
+struct Slip {
+  const char* model;
+  const char *right, *wrong;
+};
+
+constexpr Slip kSlips[] = {
+    {"ggx_of_docs", "n = normalize(s.normal)", "n = s.normal * 0.98"},
+    {"ggx_of_docs", "h = normalize(to + eye)", "h = (to + eye) * 0.5"},
+    {"ggx_of_docs", "clamp(1.0 - part * part, 0.0, 1.0)", "clamp(1.0 - part, 0.0, 1.0)"},
+    {"ggx_of_docs", "window * window / (d2 + 1.0)", "window / (d2 + 1.0)"},
+    {"ggx_of_docs", "(d2 + 1.0)", "d2"},
+    {"ggx_of_docs", "(d2 + 1.0)", "(sqrt(d2) + 1.0)"},
+    {"ggx_of_docs", "s.roughness * s.roughness", "s.roughness"},
+    {"ggx_of_docs", "max(a * a, 1e-6)", "max(a, 1e-6)"},
+    {"ggx_of_docs", "(a2 - 1.0) + 1.0", "(a2 - 1.0) + 1.01"},
+    {"ggx_of_docs", "nv * nv * (1.0 - a2) + a2", "nv * nv * (1.0 - a2) - a2"},
+    {"ggx_of_docs", "vec3(0.04)", "vec3(0.05)"},
+    {"ggx_of_docs", "(1.0 - f0) * pow", "f0 * pow"},
+    {"ggx_of_docs", "0.0, 1.0), 5.0)", "0.0, 1.0), 4.0)"},
+    {"ggx_of_docs", "dot(eye, h)", "dot(n, h)"},
+    {"ggx_of_docs", "(1.0 - f) * (1.0 - s.metallic)", "(1.0 - s.metallic)"},
+    {"ggx_of_docs", "s.albedo.rgb / pi", "s.albedo.rgb"},
+    {"ggx_of_docs", "(pi * q * q)", "(pi * q)"},
+    {"ggx_of_docs", "* 0.5 / max", "* 0.25 / max"},
+    {"ggx_of_docs", "3.14159265", "3.14"},
+    {"ggx_of_docs", ") * nl * l.color", ") * l.color"},
+    {"filament", "max(d2, 1e-4)", "max(sqrt(d2), 1e-4)"},
+    {"filament", "smoothed * smoothed", "smoothed"},
+    {"filament", "clamp(s.roughness, 0.045, 1.0)", "clamp(s.roughness, 0.45, 1.0)"},
+    {"filament", "nl * sqrt((nv - a * nv) * nv + a)", "nv * sqrt((nv - a * nv) * nv + a)"},
+    {"filament", "base / pi + lobe", "base / pi - lobe"},
+    {"disney", "0.5 + 2.0 * lh * lh * s.roughness", "0.5 + 2.0 * lh * s.roughness"},
+    {"disney", "return m2 * m2 * m;", "return m2 * m2;"},
+    {"frostbite", "mix(1.0, 1.0 / 1.51, rough)", "1.0"},
+    {"frostbite", "cone * cone", "cone"},
+    {"bevy", "rough / (one_minus + a * a)", "rough / (one_minus + a)"},
+};
+
+Pipeline pipeline_of(const LightProgram& program, Format target) {
+  Pipeline p;
+  p.width = 96, p.height = 64;
+  p.target = target;
+  p.light_program = program;
+  return with_planes_of_program(p);
+}
+
+/// cornell with metals and rough surfaces, and a spot light.
+Scene test_scene() {
+  Scene scene = builtin_scene("cornell");
+  for (size_t i = 0; i < scene.materials.size(); ++i)
+    scene.materials[i].metallic = float(i % 3) * 0.5f, scene.materials[i].roughness = 0.2f + 0.15f * float(i % 5);
+  scene.lights[0].type = LightType::spot;
+  scene.lights[0].cone_rad = 0.5f, scene.lights[0].penumbra_rad = 0.4f;
+  return scene;
+}
+
+Verdict judged(const Scene& scene, const Pipeline& pipeline, const Capture& capture) {
+  Profile profile;
+  profile.subpixel_bits = 8;
+  return validate_capture(scene, pipeline, capture, {profile, false, {}, {}});
+}
+
+}  // namespace
+
+TEST_CASE("Our own frames of light programs are explained whole") {
+  const Scene scene = test_scene();
+  for (const char* name : kModels)
+    for (const Format target : {Format::rgba8, Format::rgba16f, Format::rgba32f}) {
+      const Pipeline pipeline = pipeline_of(model(name), target);
+      const Verdict verdict = judged(scene, pipeline, captured(scene, pipeline));
+      INFO(name << " in " << info(target).name << ": " << verdict.violations() << " violations");
+      CHECK(verdict.violations() == 0);
+      CHECK(!verdict.convicted());
+      CHECK(verdict.stages.at(1).stage == "lighting");
+      CHECK(verdict.stages.at(1).count(PixelClass::undefined) == 0);
+      CHECK(verdict.stages.at(1).count(PixelClass::branch) <= 5);
+    }
+}
+
+TEST_CASE("Slips in a light's GLSL are convicted") {
+  const Scene scene = test_scene();
+  int convicted = 0, planted = 0;
+  for (const Slip& slip : kSlips) {
+    LightProgram wrong = model(slip.model);
+    const size_t at = wrong.text.find(slip.right);
+    INFO(slip.model << ": " << slip.right);
+    REQUIRE(at != std::string::npos);
+    wrong.text.replace(at, std::string(slip.right).size(), slip.wrong);
+    const Capture capture = captured(scene, pipeline_of(wrong, Format::rgba8));
+    const Verdict verdict = judged(scene, pipeline_of(model(slip.model), Format::rgba8), capture);
+    ++planted, convicted += verdict.violations() > 0 || verdict.convicted();
+    if (verdict.violations() == 0 && !verdict.convicted()) WARN("not convicted: " << slip.right << " as " << slip.wrong);
+    CHECK(verdict.stages.at(0).count(PixelClass::violation) == 0);  // the surfaces are right
+  }
+  CHECK(planted == 30);
+  CHECK(convicted >= 29);
+}
+
+TEST_CASE("A comparison of a light program that may go either way is followed both ways") {
+  const LightProgram edge{"edge.glsl", "vec3 light(Surface s, Light l, View v) {\n"
+                                       "  return distance(s.position, l.position) < 2.0 ? l.color : 0.25 * l.color; }",
+                          {}, {}};
+  Scene scene;
+  Light light;
+  light.position = {0, 0, 0}, light.color = {1, 0.5f, 0.25f}, light.range = 8;
+  scene.lights.push_back(light);
+  const ProgramBounds bounds(scene, pipeline_of(edge), Profile{}.arithmetic);
+  ProgramBounds::Registers registers;
+  const uint32_t lights[] = {0};
+  ShadedSurface surface;
+  surface.position = {Bounded{1.2, 0}, Bounded{1.6, 0}, Bounded{0, 0}};  // their floats' distance is 2, nearly
+  const LitRange lit = bounds.at(surface, lights, registers);
+  REQUIRE(lit.branches.size() == 1);
+  CHECK(holds(lit, {1, 0.5, 0.25}));
+  CHECK(holds(lit, {0.25, 0.125, 0.0625}));
+  CHECK(!holds(lit, {0.5, 0.25, 0.125}));
+  surface.position[0] = {1.19, 0};
+  CHECK(bounds.at(surface, lights, registers).branches.empty());
+}
