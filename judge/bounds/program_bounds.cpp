@@ -176,10 +176,14 @@ struct ProgramTotal {
 }  // namespace
 
 ProgramBounds::ProgramBounds(const Scene& scene, const Pipeline& pipeline, const Arithmetic& arithmetic)
+    : ProgramBounds(scene, pipeline, arithmetic, compiled(pipeline.light_program)) {}
+
+ProgramBounds::ProgramBounds(const Scene& scene, const Pipeline& pipeline, const Arithmetic& arithmetic,
+                             programs::Program program)
     : scene_(scene),
       arithmetic_(arithmetic),
       of_(arithmetic),
-      program_(compiled(pipeline.light_program)),
+      program_(std::move(program)),
       volumes_(pipeline.light_volumes),
       alpha_from_albedo_(pipeline.light_model.alpha_from_albedo) {
   make_steps();

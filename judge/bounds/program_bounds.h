@@ -31,6 +31,10 @@ class ProgramBounds {
 
   /// Error as programs::program_from_glsl() has it; Error(usage) where a parameter has no value.
   ProgramBounds(const Scene& scene, const Pipeline& pipeline, const Arithmetic& arithmetic);
+  /// Another program in place of the pipeline's, of the same inputs.
+  ProgramBounds(const Scene& scene, const Pipeline& pipeline, const Arithmetic& arithmetic, programs::Program program);
+
+  const programs::Program& program() const { return program_; }
 
   /// Lights that may reach a surface whose position is in the box.
   void take_near(const std::array<LightBounds::Span, 3>& box, std::vector<uint32_t>& near) const;

@@ -4,6 +4,7 @@
 
 #include "core/json_number.h"
 #include "core/json_string.h"
+#include "judge/diagnosis/program_search.h"
 #include "judge/diagnosis/supposed_faults.h"
 #include "judge/stages/aggregate.h"
 #include "scenes/pipeline/transparency.h"
@@ -135,6 +136,8 @@ std::vector<Finding> diagnose(const Scene& scene, const Pipeline& asked, const P
       add_glass(glass_findings(scene, pipeline, profile, capture, over != nullptr ? *over : *lit, *picture, only.glass),
                 findings);
   }
+  if (!by_model && lit != nullptr && supposed.empty())
+    findings = program_findings(scene, pipeline, profile, capture, *lit, most);
   findings = merged(std::move(planes.findings), std::move(findings), most);
   return supposed.empty() ? partial_last(std::move(findings)) : findings;
 }

@@ -91,7 +91,7 @@ NodeId NodeBuilder::make(Op op, NodeId a, NodeId b, NodeId c) {
   node.type = info(op).result;
   node.operand = {a, b, c};
   node.precise = precise_ && (op == Op::f_add || op == Op::f_sub || op == Op::f_mul);
-  node.line = line_;
+  node.line = line_, node.origin = origin_;
   bool all_constant = true;
   uint32_t bits[3] = {};
   for (size_t i = 0; i < node.operands().size(); ++i) {
@@ -139,7 +139,7 @@ NodeId NodeBuilder::select(NodeId condition, NodeId a, NodeId b) {
   choice.op = Op::select;
   choice.type = node(a).type;
   choice.operand = {condition, a, b};
-  choice.line = line_;
+  choice.line = line_, choice.origin = origin_;
   return add(choice);
 }
 

@@ -39,7 +39,7 @@ class NodeBuilder {
   const ProgramNode& node(NodeId id) const { return program_.nodes[id]; }
 
   /// What nodes made from here on are marked with.
-  void set_line(uint32_t line) { line_ = line; }
+  void set_source(uint32_t line, uint32_t origin) { line_ = line, origin_ = origin; }
   void set_precise(bool precise) { precise_ = precise; }
 
   Program& program() { return program_; }
@@ -69,7 +69,7 @@ class NodeBuilder {
   std::unordered_map<Key, NodeId, KeyHash> known_;
   std::unordered_map<std::string, uint32_t> inputs_;
   NodeId true_, false_;
-  uint32_t line_ = 0;
+  uint32_t line_ = 0, origin_ = 0;
   bool precise_ = false;
 };
 

@@ -11,7 +11,7 @@ Program specialised(const Program& program, const std::map<std::string, uint32_t
     std::array<NodeId, 3> operand = node.operand;
     for (NodeId& id : operand)
       if (id != kNoNode) id = made[id];
-    builder.set_line(node.line);
+    builder.set_source(node.line, node.origin);
     builder.set_precise(node.precise);
     if (node.op == Op::constant) {
       made.push_back(builder.constant(node.type, node.bits));

@@ -40,6 +40,7 @@ struct ProgramNode {
   bool precise = false;  ///< SPIR-V's NoContraction: no compiler may fuse or reorder it
   uint32_t bits = 0;     ///< of a constant: its bits; of an input: its number
   uint32_t line = 0;     ///< of the source; 0: not known, or not the user's
+  uint32_t origin = 0;   ///< the number of the SPIR-V instruction's result: nodes of one origin are one step of the source
   std::array<NodeId, 3> operand{kNoNode, kNoNode, kNoNode};
 
   std::span<const NodeId> operands() const { return {operand.data(), size_t(info(op).operands)}; }

@@ -7,6 +7,7 @@
 
 #include "core/simd/simd_target.h"
 #include "judge/bounds/program_bounds.h"
+#include "judge/diagnosis/finding.h"
 #include "judge/bounds/profile.h"
 #include "judge/stages/validate.h"
 #include "programs/front/light_program.h"
@@ -269,8 +270,8 @@ struct Slip {
 };
 
 constexpr Slip kSlips[] = {
-    {"ggx_of_docs", "n = normalize(s.normal)", "n = s.normal * 0.98"},
-    {"ggx_of_docs", "h = normalize(to + eye)", "h = (to + eye) * 0.5"},
+    {"ggx_of_docs", "to = normalize(d)", "to = d"},
+    {"ggx_of_docs", "h = normalize(to + eye)", "h = to + eye"},
     {"ggx_of_docs", "clamp(1.0 - part * part, 0.0, 1.0)", "clamp(1.0 - part, 0.0, 1.0)"},
     {"ggx_of_docs", "window * window / (d2 + 1.0)", "window / (d2 + 1.0)"},
     {"ggx_of_docs", "(d2 + 1.0)", "d2"},
@@ -342,9 +343,9 @@ TEST_CASE("Our own frames of light programs are explained whole") {
     }
 }
 
-TEST_CASE("Slips in a light's GLSL are convicted") {
+TEST_CASE("Slips in a light's GLSL are convicted, and their line is named first") {
   const Scene scene = test_scene();
-  int convicted = 0, planted = 0;
+  int convicted = 0, planted = 0, named = 0;
   for (const Slip& slip : kSlips) {
     LightProgram wrong = model(slip.model);
     const size_t at = wrong.text.find(slip.right);
@@ -356,9 +357,19 @@ TEST_CASE("Slips in a light's GLSL are convicted") {
     ++planted, convicted += verdict.violations() > 0 || verdict.convicted();
     if (verdict.violations() == 0 && !verdict.convicted()) WARN("not convicted: " << slip.right << " as " << slip.wrong);
     CHECK(verdict.stages.at(0).count(PixelClass::violation) == 0);  // the surfaces are right
+    const std::string line = std::to_string(1 + std::count(wrong.text.begin(), wrong.text.begin() + ptrdiff_t(at), '\n'));
+    const std::vector<Finding> findings =
+        diagnose(scene, pipeline_of(model(slip.model), Format::rgba8), Profile{}, capture, verdict.stages);
+    const bool first = !findings.empty() && findings[0].text.starts_with("line " + line + " of ");
+    named += first;
+    std::string said = findings.empty() ? "nothing" : "";
+    for (const Finding& f : findings)
+      said += "\n    " + f.text + " (" + std::to_string(f.explained) + ", " + std::to_string(f.contradicted) + ")";
+    if (!first) WARN("line " << line << ", " << slip.right << " as " << slip.wrong << ": " << said);
   }
   CHECK(planted == 30);
   CHECK(convicted >= 29);
+  CHECK(named >= 27);
 }
 
 TEST_CASE("A comparison of a light program that may go either way is followed both ways") {

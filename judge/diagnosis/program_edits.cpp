@@ -1,0 +1,241 @@
+#include "judge/diagnosis/program_edits.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace trueshade::oracle {
+
+namespace {
+
+using programs::kNoNode;
+using programs::NodeId;
+using programs::Op;
+using programs::Program;
+using programs::ProgramNode;
+using programs::Rate;
+using programs::Type;
+
+/// The steps that light() depends on.
+std::vector<bool> needed_by_light(const Program& program) {
+  std::vector<bool> needed(program.nodes.size(), false);
+  for (int i = programs::kLightOutput; i < programs::kReachesOutput; ++i) needed[program.output[size_t(i)]] = true;
+  for (NodeId id = NodeId(needed.size()); id-- > 0;)
+    if (needed[id])
+      for (const NodeId operand : program.nodes[id].operands()) needed[operand] = true;
+  return needed;
+}
+
+class EditList {
+ public:
+  explicit EditList(const Program& program) : p_(program) {
+    const std::vector<bool> needed = needed_by_light(program);
+    std::map<std::tuple<uint32_t, Op>, std::vector<NodeId>> steps;
+    for (NodeId id = 0; id < program.nodes.size(); ++id) {
+      const ProgramNode& node = program.nodes[id];
+      if (!needed[id] || node.line == 0 || node.op == Op::constant || node.op == Op::input) continue;
+      steps[{node.origin, node.op}].push_back(id);
+    }
+    for (auto& [key, nodes] : steps) steps_.push_back(std::move(nodes));
+    std::sort(steps_.begin(), steps_.end());
+  }
+
+  std::vector<ProgramEdit> all() {
+    for (const auto& step : steps_) nodes_ = step, of_operation();
+    for (const auto& step : steps_) nodes_ = step, of_constants();
+    for (const auto& step : steps_) nodes_ = step, of_value();
+    for (const auto& step : steps_) nodes_ = step, of_operands();
+    return std::move(edits_);
+  }
+
+ private:
+  const ProgramNode& at(NodeId id) const { return p_.nodes[id]; }
+  const ProgramNode& first() const { return at(nodes_[0]); }
+  bool is_number(NodeId id, float x) const {
+    return at(id).op == Op::constant && at(id).type == Type::f32 && at(id).bits == std::bit_cast<uint32_t>(x);
+  }
+
+  ProgramEdit& add(ProgramChange change, std::string text) {
+    ProgramEdit& edit = edits_.emplace_back();
+    edit.change = change, edit.nodes = nodes_, edit.line = first().line, edit.text = std::move(text);
+    return edit;
+  }
+  void other(Op op, const char* text) { add(ProgramChange::other_operation, text).op = op; }
+  void alone(size_t operand, const char* text) { add(ProgramChange::operand_alone, text).operand = operand; }
+  void number(double x, const char* text) { add(ProgramChange::number, text).number = x; }
+
+  /// The choice of normalize(): 0 < l2 ? inversesqrt(l2) : 0.
+  bool normalizes() const {
+    return first().op == Op::select && at(first().operand[1]).op == Op::f_inverse_sqrt && is_number(first().operand[2], 0);
+  }
+
+  void of_operation() {
+    const auto& [a, b, c] = first().operand;
+    switch (first().op) {
+      case Op::f_add:
+        other(Op::f_sub, "subtracts where it should add");
+        alone(0, "leaves out the second term of a sum");
+        return alone(1, "leaves out the first term of a sum");
+      case Op::f_sub:
+        other(Op::f_add, "adds where it should subtract");
+        add(ProgramChange::swapped, "subtracts the other way round");
+        alone(0, "leaves out what it should subtract");
+        return alone(1, "leaves out what it should subtract from");
+      case Op::f_mul:
+        if (a == b) return alone(0, "takes a value for its square");
+        alone(0, "leaves out the second factor of a product");
+        alone(1, "leaves out the first factor of a product");
+        return other(Op::f_div, "divides where it should multiply");
+      case Op::f_div:
+        other(Op::f_mul, "multiplies where it should divide");
+        add(ProgramChange::swapped, "divides the other way round");
+        return alone(0, "leaves out a division");
+      case Op::f_min:
+      case Op::f_max:
+        alone(0, "leaves out a bound (min, max or clamp)");
+        return other(first().op == Op::f_min ? Op::f_max : Op::f_min, "takes the wrong one of min and max");
+      case Op::f_neg:
+        return alone(0, "leaves out a minus");
+      case Op::f_abs:
+        return alone(0, "leaves out abs()");
+      case Op::f_sqrt:
+        return alone(0, "leaves out a root");
+      case Op::f_floor:
+        return alone(0, "leaves out floor()");
+      case Op::pow:
+        return alone(0, "leaves out a power");
+      case Op::select:
+        if (normalizes()) return number(1, "leaves a vector as long as it is, where it should normalize it");
+        alone(1, "takes a condition for always true");
+        return alone(2, "takes a condition for never true");
+      default:
+        return;
+    }
+  }
+
+  /// Each constant of the step is fitted: they are one number of all components.
+  void of_constants() {
+    if (p_.nodes[nodes_[0]].op == Op::select && normalizes()) return;
+    for (size_t k = 0; k < first().operands().size(); ++k) {
+      const NodeId constant = first().operand[k];
+      if (at(constant).op != Op::constant || at(constant).type != Type::f32) continue;
+      const bool one = std::all_of(nodes_.begin(), nodes_.end(), [&](NodeId n) { return at(n).operand[k] == constant; });
+      const double x = double(std::bit_cast<float>(at(constant).bits));
+      if (!one || !std::isfinite(x)) continue;
+      ProgramEdit& edit = add(ProgramChange::constant_operand, "");
+      edit.operand = k, edit.number = x, edit.fitted = true;
+    }
+  }
+
+  void of_value() {
+    if (first().type != Type::f32 || first().op == Op::select || nodes_.size() > 1) return;
+    add(ProgramChange::square, "has the square of a value where it should have the value");
+    add(ProgramChange::root, "has the root of a value where it should have the value");
+  }
+
+  /// A value of the same kind: a scalar that is bounded or a product of vectors, or a vector of unit length.
+  void of_operands() {
+    if (first().type != Type::f32 || first().op == Op::select) return;
+    for (size_t k = 0; k < first().operands().size(); ++k) {
+      if (nodes_.size() == 1) {
+        for (const auto& step : steps_)
+          if (step.size() == 1 && may_stand(step[0]) && at(step[0]).line <= first().line) take({step[0]}, k);
+      } else if (nodes_.size() == 3) {
+        for (const auto& step : steps_)
+          if (step.size() == 3 && is_vector(step)) take(step, k);
+      }
+    }
+  }
+  bool may_stand(NodeId id) const {
+    const Op op = at(id).op;
+    return op == Op::f_min || op == Op::f_max || op == Op::f_add || op == Op::f_sqrt || op == Op::f_mul;
+  }
+  bool is_vector(const std::vector<NodeId>& step) const {
+    return at(step[0]).op == Op::f_mul &&
+           std::all_of(step.begin(), step.end(), [&](NodeId n) { return at(at(n).operand[1]).op == Op::select; });
+  }
+  /// So that what start() reads depends on no light.
+  bool keeps_rate(NodeId node, NodeId other) const {
+    return at(node).rate == Rate::pair || at(other).rate == Rate::constant || at(other).rate == at(node).rate;
+  }
+  void take(const std::vector<NodeId>& others, size_t operand) {
+    for (size_t i = 0; i < nodes_.size(); ++i)
+      if (others[i] >= nodes_[i] || !keeps_rate(nodes_[i], others[i]) || at(nodes_[i]).operand[operand] == others[i] ||
+          at(at(nodes_[i]).operand[operand]).op == Op::constant)
+        return;
+    ProgramEdit& edit = add(ProgramChange::other_operand,
+                            "has the value of line " + std::to_string(at(others[0]).line) + " as an operand where it "
+                            "should have another");
+    edit.operand = operand, edit.others = others;
+  }
+
+  const Program& p_;
+  std::vector<std::vector<NodeId>> steps_;
+  std::vector<NodeId> nodes_;
+  std::vector<ProgramEdit> edits_;
+};
+
+}  // namespace
+
+std::vector<ProgramEdit> program_edits(const Program& program) { return EditList(program).all(); }
+
+Program edited(const Program& program, const ProgramEdit& edit) {
+  Program out = program;
+  out.nodes.clear();
+  std::vector<NodeId> now(program.nodes.size());
+  const auto push = [&](const ProgramNode& node) {
+    out.nodes.push_back(node);
+    return NodeId(out.nodes.size() - 1);
+  };
+  const auto constant = [&](double x) {
+    ProgramNode node;
+    node.bits = std::bit_cast<uint32_t>(float(x));
+    return push(node);
+  };
+  for (NodeId id = 0; id < program.nodes.size(); ++id) {
+    ProgramNode node = program.nodes[id];
+    for (size_t k = 0; k < node.operands().size(); ++k) node.operand[k] = now[node.operand[k]];
+    const auto place = std::lower_bound(edit.nodes.begin(), edit.nodes.end(), id);
+    if (place == edit.nodes.end() || *place != id) {
+      now[id] = push(node);
+      continue;
+    }
+    switch (edit.change) {
+      case ProgramChange::other_operation:
+        node.op = edit.op;
+        break;
+      case ProgramChange::operand_alone:
+        now[id] = node.operand[edit.operand];
+        continue;
+      case ProgramChange::swapped:
+        std::swap(node.operand[0], node.operand[1]);
+        break;
+      case ProgramChange::number:
+        now[id] = constant(edit.number);
+        continue;
+      case ProgramChange::constant_operand:
+        node.operand[edit.operand] = constant(edit.number);
+        break;
+      case ProgramChange::other_operand:
+        node.operand[edit.operand] = now[edit.others[size_t(place - edit.nodes.begin())]];
+        break;
+      case ProgramChange::square:
+      case ProgramChange::root: {
+        ProgramNode more = node;
+        const NodeId value = push(node);
+        more.op = edit.change == ProgramChange::square ? Op::f_mul : Op::f_sqrt;
+        more.operand = {value, edit.change == ProgramChange::square ? value : kNoNode, kNoNode};
+        now[id] = push(more);
+        continue;
+      }
+    }
+    now[id] = push(node);
+  }
+  for (NodeId& id : out.output) id = now[id];
+  set_rates(out);
+  return out;
+}
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,40 @@
+#pragma once
+// A light program as people get it wrong: one step of its source is another.
+#include <string>
+#include <vector>
+
+#include "programs/values/program.h"
+
+namespace trueshade::oracle {
+
+enum class ProgramChange : uint8_t {
+  other_operation,   ///< `op` instead
+  operand_alone,     ///< the operand itself: what is done to it is left out
+  swapped,           ///< the first two operands change places
+  number,            ///< the value is a number
+  constant_operand,  ///< an operand that is a constant is another number
+  other_operand,     ///< an operand is the value of another step
+  square,            ///< the square of the value
+  root,              ///< its root
+};
+
+/// One change of all nodes that a step of the source became: of the components of a vector, say.
+struct ProgramEdit {
+  ProgramChange change = ProgramChange::other_operation;
+  std::vector<programs::NodeId> nodes;   ///< ascending
+  std::vector<programs::NodeId> others;  ///< other_operand: for each node
+  size_t operand = 0;
+  programs::Op op = programs::Op::f_add;
+  double number = 0;    ///< what it is
+  bool fitted = false;  ///< the number is to be found: it is what it is rightly
+  uint32_t line = 0;
+  std::string text;  ///< what the line does then, "subtracts where it should add"
+};
+
+/// What may be done to the steps that light() depends on and that have a line of the user's, those that leave out or
+/// confuse something first, constants next, operands last.
+std::vector<ProgramEdit> program_edits(const programs::Program& program);
+
+programs::Program edited(const programs::Program& program, const ProgramEdit& edit);
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,291 @@
+#include "judge/diagnosis/program_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "judge/bounds/program_bounds.h"
+#include "judge/diagnosis/program_edits.h"
+#include "judge/stages/captured_surface.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+constexpr int kSide = 8;                   // of a square, pixels
+constexpr size_t kWrongSquares = 8, kRightSquares = 3;
+constexpr double kLeastExplained = 1.0 / 3;
+constexpr double kKnown = 1.0 / 512;  // a color that is known no better explains nothing
+
+struct Sample {
+  int x = 0, y = 0;
+  bool wrong = false;
+  ShadedSurface surface;
+  std::array<double, 3> stored{};
+};
+
+/// Pixels that are judged together, and the lights that may reach them.
+struct Square {
+  std::vector<Sample> samples;
+  std::vector<uint32_t> lights;
+};
+
+/// What a program makes of the samples, beside what is stored.
+struct Match {
+  double explained = 0, contradicted = 0;  ///< shares of the samples that are wrong, and of those that are right
+  double score() const { return explained - contradicted; }
+};
+
+class ProgramSearch {
+ public:
+  ProgramSearch(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
+                const StageVerdict& lighting)
+      : scene_(scene),
+        pipeline_(pipeline),
+        profile_(resolved(profile, pipeline)),
+        lighting_(lighting),
+        surfaces_(scene, pipeline, profile_, capture),
+        color_(target_of(capture, pipeline)),
+        right_(scene, pipeline, profile_.arithmetic) {
+    choose_squares();
+  }
+
+  std::vector<Finding> findings(size_t most) {
+    if (squares_.empty()) return {};
+    std::vector<std::pair<Match, ProgramEdit>> found;
+    for (ProgramEdit& edit : program_edits(right_.program())) {
+      if (edit.fitted && !fit(edit)) continue;
+      const Match match = match_of(edited(right_.program(), edit), squares_);
+      if (match.explained >= kLeastExplained) found.emplace_back(match, std::move(edit));
+    }
+    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first.score() > b.first.score(); });
+    std::vector<Finding> out;
+    for (const auto& [match, edit] : found) {
+      if (out.size() == most) break;
+      if (std::none_of(out.begin(), out.end(), [&](const Finding& f) { return f.text == text_of(edit); }))
+        out.push_back(finding(match, edit));
+    }
+    for (size_t i = 1; i < out.size(); ++i)
+      out[i].tied = out[i].explained == out[0].explained && out[i].contradicted == out[0].contradicted;
+    return out;
+  }
+
+ private:
+  bool is_wrong(int x, int y) const {
+    return lighting_.classes[size_t(y) * size_t(pipeline_.width) + size_t(x)] == PixelClass::violation;
+  }
+
+  /// Squares with the most wrong pixels, from all over the picture, and some of those where a light is and nothing is
+  /// wrong.
+  void choose_squares() {
+    struct Place {
+      int x, y, wrong, covered;
+    };
+    std::vector<Place> wrong, right;
+    for (int y = 0; y < pipeline_.height; y += kSide)
+      for (int x = 0; x < pipeline_.width; x += kSide) {
+        Place place{x, y, 0, 0};
+        for (int v = y; v < std::min(y + kSide, pipeline_.height); ++v)
+          for (int u = x; u < std::min(x + kSide, pipeline_.width); ++u)
+            if (surfaces_.covered(u, v)) ++place.covered, place.wrong += is_wrong(u, v);
+        if (place.wrong > 0) wrong.push_back(place);
+        if (place.wrong == 0 && place.covered > 0) right.push_back(place);
+      }
+    std::stable_sort(wrong.begin(), wrong.end(), [](const Place& a, const Place& b) { return a.wrong > b.wrong; });
+    wrong.resize((wrong.size() + 1) / 2);
+    const auto take = [&](const std::vector<Place>& places, size_t count) {
+      for (size_t i = 0; i < std::min(count, places.size()); ++i) {
+        const Place& place = places[i * places.size() / std::min(count, places.size())];
+        add_square(place.x, place.y);
+      }
+    };
+    if (wrong.empty()) return;
+    take(wrong, kWrongSquares), take(right, kRightSquares);
+  }
+
+  void add_square(int left, int top) {
+    Square& square = squares_.emplace_back();
+    std::array<LightBounds::Span, 3> box;
+    box.fill({HUGE_VAL, -HUGE_VAL});
+    for (int y = top; y < std::min(top + kSide, pipeline_.height); ++y)
+      for (int x = left; x < std::min(left + kSide, pipeline_.width); ++x) {
+        if (!surfaces_.covered(x, y)) continue;
+        Sample& s = square.samples.emplace_back();
+        s.x = x, s.y = y, s.wrong = is_wrong(x, y), s.surface = surfaces_.at(x, y);
+        for (int k = 0; k < 3; ++k) s.stored[size_t(k)] = color_.stored(x, y, k);
+        for (size_t k = 0; k < 3; ++k) {
+          box[k].low = std::min(box[k].low, s.surface.position[k].low());
+          box[k].high = std::max(box[k].high, s.surface.position[k].high());
+        }
+      }
+    right_.take_near(box, square.lights);
+  }
+
+  /// What is stored of a sample by a program; whether it is known so well that it could be another.
+  struct Made {
+    std::array<LegalTexel, 3> texel;
+    bool known = true;
+  };
+  std::vector<Made> made_of(const ProgramBounds& bounds, const Square& square) {
+    std::vector<const ShadedSurface*> surfaces;
+    for (const Sample& s : square.samples) surfaces.push_back(&s.surface);
+    std::vector<LitRange> lit(surfaces.size());
+    bounds.at(surfaces, square.lights, block_, lit);
+    std::vector<Made> out(lit.size());
+    for (size_t i = 0; i < lit.size(); ++i) {
+      for (const OtherBranch& b : lit[i].branches)
+        for (size_t k = 0; k < 3; ++k) lit[i].color[k].error += std::fabs(b.change[k]);
+      const ProgramBounds::Finished color = bounds.finished(*surfaces[i], lit[i].color, block_.registers);
+      out[i].known = !lit[i].undefined && !color.undefined;
+      for (size_t k = 0; k < 3; ++k) {
+        const Bounded& c = color.color[k];
+        out[i].known = out[i].known && c.error <= kKnown * std::fabs(c.value) + 1e-9;
+        out[i].texel[k] = legal_texel(range_of(c), color_.image->format, int(k), profile_);
+      }
+    }
+    return out;
+  }
+
+  static bool fits(const Made& made, const Sample& sample) {
+    for (size_t k = 0; k < 3; ++k)
+      if (!made.texel[k].contains(sample.stored[k])) return false;
+    return true;
+  }
+
+  Match match_of(programs::Program program, std::span<const Square> squares) {
+    const ProgramBounds bounds(scene_, pipeline_, profile_.arithmetic, std::move(program));
+    size_t wrong = 0, right = 0, explained = 0, contradicted = 0;
+    for (const Square& square : squares) {
+      const std::vector<Made> made = made_of(bounds, square);
+      for (size_t i = 0; i < made.size(); ++i) {
+        const bool fit = fits(made[i], square.samples[i]);
+        if (square.samples[i].wrong)
+          ++wrong, explained += made[i].known && fit;
+        else
+          ++right, contradicted += !fit;
+      }
+    }
+    return {wrong > 0 ? double(explained) / double(wrong) : 0, right > 0 ? double(contradicted) / double(right) : 0};
+  }
+
+  /// How far a program's picture is off, of samples that are wrong: a part of the values, at most 1 each.
+  double distance(const ProgramEdit& edit, std::span<const Square> squares) {
+    const ProgramBounds bounds(scene_, pipeline_, profile_.arithmetic, edited(right_.program(), edit));
+    double sum = 0;
+    for (const Square& square : squares) {
+      const std::vector<Made> made = made_of(bounds, square);
+      for (size_t i = 0; i < made.size(); ++i)
+        for (size_t k = 0; k < 3 && square.samples[i].wrong; ++k) {
+          const double given = square.samples[i].stored[k], off = std::fabs(given - made[i].texel[k].nominal);
+          const double size = std::fabs(given) + std::fabs(made[i].texel[k].nominal);
+          sum += std::isfinite(off) && size > 0 ? off / size : off == 0 ? 0 : 1;
+        }
+    }
+    return sum;
+  }
+
+  /// Finds the number of a constant: a factor on a grid, and between its neighbours by golden section. False where the
+  /// right number is as good.
+  bool fit(ProgramEdit& edit) {
+    constexpr double kGrid[] = {-1, 0, 0.05, 0.1, 0.2, 0.25, 0.3333, 0.5, 0.67, 0.8, 0.9, 0.95, 0.98, 0.99, 0.997, 0.999,
+                                1.001, 1.003, 1.01, 1.02, 1.05, 1.1, 1.25, 1.5, 2, 3, 4, 5, 10, 20};
+    const double right = edit.number != 0 ? edit.number : 1;
+    const std::span<const Square> some(squares_.data(), std::min<size_t>(2, squares_.size()));
+    const double now = distance(edit, some);
+    const auto at = [&](double factor) {
+      edit.number = factor * right;
+      return distance(edit, some);
+    };
+    size_t best = 0;
+    double least = HUGE_VAL;
+    for (size_t i = 0; i < std::size(kGrid); ++i)
+      if (const double d = at(kGrid[i]); d < least) least = d, best = i;
+    if (!(least < 0.6 * now)) return false;
+    double low = kGrid[best == 0 ? 0 : best - 1], high = kGrid[std::min(best + 1, std::size(kGrid) - 1)];
+    constexpr double kGolden = 0.6180339887498949;
+    double p = high - kGolden * (high - low), q = low + kGolden * (high - low), at_p = at(p), at_q = at(q);
+    for (int i = 0; i < 20; ++i) {
+      if (at_p <= at_q) {
+        high = q, q = p, at_q = at_p, p = high - kGolden * (high - low), at_p = at(p);
+      } else {
+        low = p, p = q, at_p = at_q, q = low + kGolden * (high - low), at_q = at(q);
+      }
+    }
+    const double middle = at_p <= at_q ? p : q;
+    edit.number = (at(middle) <= least ? middle : kGrid[best]) * right;
+    return true;
+  }
+
+  std::string source_line(uint32_t number) const {
+    const std::string& text = pipeline_.light_program.text;
+    size_t from = 0;
+    for (uint32_t i = 1; i < number && from != std::string::npos; ++i) from = text.find('\n', from) + 1;
+    std::string line = text.substr(from, text.find('\n', from) - from);
+    line.erase(0, line.find_first_not_of(" \t"));
+    constexpr size_t kMost = 80;
+    return line.size() > kMost ? line.substr(0, kMost - 3) + "..." : line;
+  }
+
+  static std::string number_text(double x) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", x);
+    return text;
+  }
+
+  std::string text_of(const ProgramEdit& edit) const {
+    std::string text = "line " + std::to_string(edit.line) + " of " + right_.program().name + ", `" +
+                       source_line(edit.line) + "`, ";
+    if (!edit.fitted) return text + edit.text;
+    const programs::ProgramNode& node = right_.program().nodes[edit.nodes[0]];
+    const uint32_t bits = right_.program().nodes[node.operand[edit.operand]].bits;
+    return text + "has " + number_text(edit.number) + " where it should have " +
+           number_text(double(std::bit_cast<float>(bits)));
+  }
+
+  Finding finding(const Match& match, const ProgramEdit& edit) {
+    Finding f;
+    f.name = "light-shader-line-" + std::to_string(edit.line);
+    f.plane = "picture", f.text = text_of(edit), f.fitted = edit.fitted;
+    f.changed = lighting_.count(PixelClass::violation);
+    f.explained = f.alone = match.explained, f.contradicted = match.contradicted;
+    prove(edit, f.proof);
+    return f;
+  }
+
+  /// The channel that is farthest off of those that are explained.
+  void prove(const ProgramEdit& edit, Proof& proof) {
+    const ProgramBounds bounds(scene_, pipeline_, profile_.arithmetic, edited(right_.program(), edit));
+    double farthest = -1;
+    for (const Square& square : squares_) {
+      const std::vector<Made> wrong = made_of(bounds, square), right = made_of(right_, square);
+      for (size_t i = 0; i < wrong.size(); ++i)
+        for (size_t k = 0; k < 3 && square.samples[i].wrong && fits(wrong[i], square.samples[i]); ++k) {
+          const double given = square.samples[i].stored[k], off = std::fabs(given - right[i].texel[k].nominal);
+          if (!(off > farthest)) continue;
+          farthest = off;
+          proof = {square.samples[i].x, square.samples[i].y, channel_of("color", int(k)), given,
+                   right[i].texel[k].nominal, wrong[i].texel[k].nominal};
+        }
+    }
+  }
+
+  const Scene& scene_;
+  const Pipeline& pipeline_;
+  const Profile profile_;
+  const StageVerdict& lighting_;
+  const CapturedSurface surfaces_;
+  const PlaneView color_;
+  const ProgramBounds right_;
+  std::vector<Square> squares_;
+  ProgramBounds::Block block_;
+};
+
+}  // namespace
+
+std::vector<Finding> program_findings(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                                      const Capture& capture, const StageVerdict& lighting, size_t most) {
+  if (lighting.count(PixelClass::violation) == 0) return {};
+  return ProgramSearch(scene, pipeline, profile, capture, lighting).findings(most);
+}
+
+}  // namespace trueshade::oracle
