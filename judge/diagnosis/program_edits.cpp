@@ -119,13 +119,17 @@ class EditList {
   void of_constants() {
     if (p_.nodes[nodes_[0]].op == Op::select && normalizes()) return;
     for (size_t k = 0; k < first().operands().size(); ++k) {
-      const NodeId constant = first().operand[k];
-      if (at(constant).op != Op::constant || at(constant).type != Type::f32) continue;
-      const bool one = std::all_of(nodes_.begin(), nodes_.end(), [&](NodeId n) { return at(n).operand[k] == constant; });
-      const double x = double(std::bit_cast<float>(at(constant).bits));
-      if (!one || !std::isfinite(x)) continue;
-      ProgramEdit& edit = add(ProgramChange::constant_operand, "");
-      edit.operand = k, edit.number = x, edit.fitted = true;
+      std::vector<NodeId> constants;
+      for (const NodeId n : nodes_) constants.push_back(at(n).operand[k]);
+      std::sort(constants.begin(), constants.end());
+      constants.erase(std::unique(constants.begin(), constants.end()), constants.end());
+      for (const NodeId constant : constants) {
+        const double x = double(std::bit_cast<float>(at(constant).bits));
+        if (at(constant).op != Op::constant || at(constant).type != Type::f32 || !std::isfinite(x)) continue;
+        ProgramEdit& edit = add(ProgramChange::constant_operand, "");
+        std::erase_if(edit.nodes, [&](NodeId n) { return at(n).operand[k] != constant; });
+        edit.operand = k, edit.number = x, edit.fitted = true;
+      }
     }
   }
 
@@ -133,6 +137,11 @@ class EditList {
     if (first().type != Type::f32 || first().op == Op::select || nodes_.size() > 1) return;
     add(ProgramChange::square, "has the square of a value where it should have the value");
     add(ProgramChange::root, "has the root of a value where it should have the value");
+    for (size_t k = 0; k < first().operands().size(); ++k) {
+      if (at(first().operand[k]).op == Op::constant || first().operand[0] == first().operand[1]) continue;
+      add(ProgramChange::square_of_operand, "has the square of a value where it should have the value").operand = k;
+      add(ProgramChange::root_of_operand, "has the root of a value where it should have the value").operand = k;
+    }
   }
 
   /// A value of the same kind: a scalar that is bounded or a product of vectors, or a vector of unit length.
@@ -194,6 +203,11 @@ Program edited(const Program& program, const ProgramEdit& edit) {
     node.bits = std::bit_cast<uint32_t>(float(x));
     return push(node);
   };
+  const auto powered = [&](NodeId value, Op op) {
+    ProgramNode node;
+    node.op = op, node.operand = {value, op == Op::f_mul ? value : kNoNode, kNoNode};
+    return push(node);
+  };
   for (NodeId id = 0; id < program.nodes.size(); ++id) {
     ProgramNode node = program.nodes[id];
     for (size_t k = 0; k < node.operands().size(); ++k) node.operand[k] = now[node.operand[k]];
@@ -221,15 +235,16 @@ Program edited(const Program& program, const ProgramEdit& edit) {
       case ProgramChange::other_operand:
         node.operand[edit.operand] = now[edit.others[size_t(place - edit.nodes.begin())]];
         break;
+      case ProgramChange::square_of_operand:
+        node.operand[edit.operand] = powered(node.operand[edit.operand], Op::f_mul);
+        break;
+      case ProgramChange::root_of_operand:
+        node.operand[edit.operand] = powered(node.operand[edit.operand], Op::f_sqrt);
+        break;
       case ProgramChange::square:
-      case ProgramChange::root: {
-        ProgramNode more = node;
-        const NodeId value = push(node);
-        more.op = edit.change == ProgramChange::square ? Op::f_mul : Op::f_sqrt;
-        more.operand = {value, edit.change == ProgramChange::square ? value : kNoNode, kNoNode};
-        now[id] = push(more);
+      case ProgramChange::root:
+        now[id] = powered(push(node), edit.change == ProgramChange::square ? Op::f_mul : Op::f_sqrt);
         continue;
-      }
     }
     now[id] = push(node);
   }

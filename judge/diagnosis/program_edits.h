@@ -16,6 +16,8 @@ enum class ProgramChange : uint8_t {
   other_operand,     ///< an operand is the value of another step
   square,            ///< the square of the value
   root,              ///< its root
+  square_of_operand,
+  root_of_operand,
 };
 
 /// One change of all nodes that a step of the source became: of the components of a vector, say.

@@ -15,6 +15,7 @@ namespace {
 constexpr int kSide = 8;                   // of a square, pixels
 constexpr size_t kWrongSquares = 8, kRightSquares = 3;
 constexpr double kLeastExplained = 1.0 / 3;
+constexpr double kExplanation = 0.9;  // above it, operands are not tried: they are many
 constexpr double kKnown = 1.0 / 512;  // a color that is known no better explains nothing
 
 struct Sample {
@@ -53,9 +54,14 @@ class ProgramSearch {
   std::vector<Finding> findings(size_t most) {
     if (squares_.empty()) return {};
     std::vector<std::pair<Match, ProgramEdit>> found;
+    const std::span<const Square> first(squares_.data(), 1);
+    double best = 0;
     for (ProgramEdit& edit : program_edits(right_.program())) {
+      if (edit.change == ProgramChange::other_operand && best > kExplanation) break;
       if (edit.fitted && !fit(edit)) continue;
+      if (match_of(edited(right_.program(), edit), first).explained < kLeastExplained / 2) continue;
       const Match match = match_of(edited(right_.program(), edit), squares_);
+      best = std::max(best, match.score());
       if (match.explained >= kLeastExplained) found.emplace_back(match, std::move(edit));
     }
     std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first.score() > b.first.score(); });
@@ -190,7 +196,7 @@ class ProgramSearch {
     constexpr double kGrid[] = {-1, 0, 0.05, 0.1, 0.2, 0.25, 0.3333, 0.5, 0.67, 0.8, 0.9, 0.95, 0.98, 0.99, 0.997, 0.999,
                                 1.001, 1.003, 1.01, 1.02, 1.05, 1.1, 1.25, 1.5, 2, 3, 4, 5, 10, 20};
     const double right = edit.number != 0 ? edit.number : 1;
-    const std::span<const Square> some(squares_.data(), std::min<size_t>(2, squares_.size()));
+    const std::span<const Square> some(squares_.data(), 1);
     const double now = distance(edit, some);
     const auto at = [&](double factor) {
       edit.number = factor * right;
