@@ -18,8 +18,7 @@ void add_layers(CommandTable& table, PipelineOptions& options) {
             "JSON file of values that replace the preset's and the scene's");
 }
 
-/// Of commands that draw lights.
-static void add_light_program(CommandTable& table, PipelineOptions& options) {
+void add_light_program(CommandTable& table, PipelineOptions& options) {
   add_value(table, "--light-shader", "FILE", options.light_shader,
             "GLSL or SPIR-V of light(), which takes the place of the preset's formula (docs/light_programs.md)");
   add_values(table, "--light-parameter", "NAME=VALUE", options.light_parameters,
