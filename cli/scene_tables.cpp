@@ -55,6 +55,7 @@ CommandTable glsl_table(GlslFilesOptions& options, GlslTexts& texts) {
   add_size(table, texts.size);
   add_time(table, texts.time);
   add_layers(table, options);
+  add_light_program(table, options);
   add_strategy(table, texts.strategy);
   add_limits(table, options.limits);
   table.examples = {{"trueshade glsl --preset redsdk -o shaders", "A preset's shaders, with the state around them."}};

@@ -62,6 +62,9 @@ trueshade_slow(10
   "diagnosis:Lights that are one to five thousandths too bright or reach too far are named in planes of halves"
   "gl:The same frames, replayed in OpenGL 4.5 and OpenGL ES 3.1, are judged without a violation")
 trueshade_slow(4
+  "gl:lavapipe gives a program every field that we give it"
+  "gl:lavapipe draws programs of every kind as we do"
+  "gl:A light program's frame, replayed from its files alone, is the driver's own"
   "judge:Frames that were convicted though a device may draw them are not"
   "judge:Frames of SwiftShader's that were convicted though it may draw them are not"
   "light_functions:the oracle's functions of one float at 160,000 floats each"
@@ -137,6 +140,9 @@ trueshade_slow(4
   "cli:The whole command stays below the memory that five and eight million triangles were given"
   "gl:state.json carried out, call by call, draws the judge's own bytes under every preset and strategy")
 trueshade_slow(2
+  "gl:trueshade glsl writes the user's text as it is, in GLSL that glslang takes, with its parameters' bytes"
+  "gl:lavapipe draws many-lights as a program within a code of our frame of it"
+  "gl:llvmpipe draws programs of every kind as we do"
   "explain:a light model of another kind, and a picture upside down, are named"
   "diagnosis:Legal captures have no finding"
   "cli:commands beside render read scenes from cache files"

@@ -80,6 +80,7 @@ GlPeer::Work::Work(GlRenderer& r, const Pipeline& p, GlDesign d, int tile_size)
                                          : 32),
       options(lean_options(r)),
       planes(is_forward(d) ? std::vector<GlslPlane>{} : planes_of(pipeline, options)) {
+  require_no_light_program(p, "a design of the benchmark");
   renderer.context().make_current();
   check_limits(renderer.context(), pipeline, pipeline.width, pipeline.height);
   viewport = resolved_viewport(pipeline.geometry, pipeline.width, pipeline.height);

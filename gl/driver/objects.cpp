@@ -173,6 +173,13 @@ void bind_texture(GLuint program, const char* sampler, int unit, GLenum target, 
   set_uniform(program, sampler, unit);
 }
 
+void bind_block(GLuint program, const char* name, GLuint buffer) {
+  const GLuint block = glGetUniformBlockIndex(program, name);
+  if (block == GL_INVALID_INDEX) return;
+  glUniformBlockBinding(program, block, 0);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, buffer);
+}
+
 void check_gl(std::string_view where) {
   const GLenum error = glGetError();
   if (error == GL_NO_ERROR) return;

@@ -85,6 +85,9 @@ void set_uniform(GLuint program, const char* name, std::span<const float> values
 /// Binds a texture to a unit and tells the sampler of that name.
 void bind_texture(GLuint program, const char* sampler, int unit, GLenum target, GLuint texture);
 
+/// Binds a buffer to the program's uniform block of that name, where it has one.
+void bind_block(GLuint program, const char* name, GLuint buffer);
+
 /// Throws std::runtime_error if GL has recorded an error since the last call.
 void check_gl(std::string_view where);
 

@@ -13,6 +13,7 @@
 #include "gl/driver/read_back.h"
 #include "gl/driver/scene_buffers.h"
 #include "gl/driver/surface_uniforms.h"
+#include "gl/emit/light_text.h"
 #include "gl/emit/post_glsl.h"
 #include "oracle/exact_coverage.h"
 #include "scenes/pipeline/light_mesh.h"
@@ -87,6 +88,8 @@ class LightPass {
     const int all = int(scene_.lights.size());
     lights_ = draw.lights < 0 ? all : std::min(draw.lights, all);
     stands_in_ = t.color_format != pipeline.target;
+    if (const std::vector<uint8_t> block = parameter_bytes(pipeline); !block.empty())
+      parameters_ = make_buffer(GL_UNIFORM_BUFFER, std::span<const uint8_t>(block));
   }
 
   void run() {
@@ -163,13 +166,20 @@ class LightPass {
   }
 
   void use(GLuint program) const {
+    const bool by_program = pipeline_.light_program.used();
+    const bool materials = reads_materials(pipeline_.light_model) || by_program;
+    // Made before any is bound: making one binds it to whichever unit is active.
+    const GLuint light_texels =
+        by_program ? buffers_.program_light_texels() : buffers_.light_texels(pipeline_.light_model);
+    const GLuint material_texels = materials ? buffers_.material_texels(pipeline_) : 0;
     glUseProgram(program);
     const int unit =
         bind_surface(program, t_.planes, t_.textures, t_.depth, scene_, pipeline_, draw_.shift_x, draw_.shift_y);
-    bind_texture(program, "lights", unit, GL_TEXTURE_BUFFER, buffers_.light_texels(pipeline_.light_model));
+    bind_texture(program, "lights", unit, GL_TEXTURE_BUFFER, light_texels);
     set_uniform(program, "light_count", lights_);
-    if (reads_materials(pipeline_.light_model))
-      bind_texture(program, "materials", unit + 1, GL_TEXTURE_BUFFER, buffers_.material_texels(pipeline_));
+    if (materials) bind_texture(program, "materials", unit + 1, GL_TEXTURE_BUFFER, material_texels);
+    if (by_program) set_clip_rows(program, scene_, pipeline_);
+    if (parameters_ != 0) bind_block(program, light_text_of(pipeline_)->outline.parameter_block.c_str(), parameters_);
   }
 
   void set_scene_state() const {
@@ -273,6 +283,7 @@ class LightPass {
   const GlDraw& draw_;
   const Scene& scene_;
   int lights_ = 0;
+  GlBuffer parameters_;     ///< a light program's block; none where it has none
   bool stands_in_ = false;  ///< the target has an alpha that its format has not: it stays 1, as blending reads it
 };
 
@@ -344,7 +355,6 @@ const Targets& GlRenderer::targets(const Pipeline& pipeline, const GlslOptions& 
 }
 
 GlFrame GlRenderer::draw(const Pipeline& asked, const GlDraw& draw) {
-  require_no_light_program(asked, "OpenGL's frame");
   const bool post = draw.post && asked.post.active();
   const Pipeline pipeline = drawn_pipeline(post ? pipeline_without_post(asked) : asked);
   context_->make_current();

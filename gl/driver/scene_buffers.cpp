@@ -170,9 +170,15 @@ GLuint SceneBuffers::light_texels(const LightModel& model) {
   return lights_.texture;
 }
 
+GLuint SceneBuffers::program_light_texels() {
+  if (program_lights_.texture == 0) program_lights_ = make_texel_buffer(program_light_records(*scene_));
+  return program_lights_.texture;
+}
+
 GLuint SceneBuffers::material_texels(const Pipeline& pipeline) {
   const LightModel& model = pipeline.light_model;
-  if (materials_of_ && materials_of_->light_model == model && materials_of_->transparency == pipeline.transparency)
+  if (materials_of_ && materials_of_->light_model == model && materials_of_->transparency == pipeline.transparency &&
+      materials_of_->light_program.used() == pipeline.light_program.used())
     return materials_.texture;
   materials_ = make_texel_buffer(material_records(*scene_, pipeline));
   materials_of_ = pipeline;

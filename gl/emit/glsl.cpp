@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "gl/emit/light_text.h"
+
 namespace trueshade::oracle {
 
 namespace {
@@ -69,7 +71,9 @@ bool has_ids(const std::vector<GlslPlane>& planes) {
 
 /// Whether fragments know their object and material.
 bool carries_ids(const Pipeline& pipeline, const GlslOptions& options) {
-  return reads_materials(pipeline.light_model) || has_ids(planes_of(pipeline, options));
+  const ProgramReads reads = surface_reads(pipeline, options);
+  return reads_materials(pipeline.light_model) || reads.object || reads.material ||
+         has_ids(planes_of(pipeline, options));
 }
 
 /// Fixed-point planes hold directions as (n + 1) / 2.
@@ -77,12 +81,18 @@ bool halves_normals(const Pipeline& pipeline) {
   return info(pipeline.gbuffer.normal.format).number_class == NumberClass::unorm;
 }
 
+/// Whether fragments have a varying of the first set of texture coordinates.
+bool carries_uv(const Pipeline& pipeline, const GlslOptions& options) {
+  return options.uv || options.maps || surface_reads(pipeline, options).uv;
+}
+
 /// What a texel of a map does to the material's own values.
-std::string map_text(const std::string& name, const GlslOptions& options) {
+std::string map_text(const std::string& name, const LightModel& model, const GlslOptions& options) {
   const std::string texel = lookup_text(name, options);
   if (name == "specular") return "  gloss.rgb = gloss.rgb * " + texel + ".rgb;\n";
   if (name == "emission") return "  emission.rgb = emission.rgb * " + texel + ".rgb;\n";
   if (name == "occlusion") return "  emission.a = 1.0 + other.y * (" + texel + ".r - 1.0);\n";
+  if (model.keeps_metals) return "  gloss.rg = gloss.rg * " + texel + ".bg;\n";
   return "  vec4 metal = " + texel +
          ";\n  float rough = max(other.x * metal.g, 0.04);\n"
          "  if (other.w == 1.0) gloss.a = clamp(roundEven(2.0 / ((rough * rough) * (rough * rough)) - 2.0), 1.0, "
@@ -175,15 +185,14 @@ std::vector<GlslPlane> planes_of(const Pipeline& pipeline, const GlslOptions& op
   if (!g.position_from_depth) add("position", "position", g.position.format);
   add("normal", "normal", g.normal.format);
   add("albedo", "albedo", g.albedo.format);
-  if (options.uv) add("uv", "uv", g.uv.format);
+  const ProgramReads reads = surface_reads(pipeline, options);
+  if (options.uv || reads.uv) add("uv", "uv", g.uv.format);
   if (reads_specular_plane(pipeline.light_model)) add("specular", "specular", g.specular);
   if (pipeline.light_model.emission) add("emission", "emission", g.emission);
   const bool w = info(planes[0].format).channels == 4;
-  if (options.ids || !w) add("id.object", "object", Format::r32ui);
-  if (options.ids) {
-    add("id.material", "material", Format::r32ui);
-    if (options.primitive && planes.size() < kMostPlanes) add("id.primitive", "primitive", Format::r32ui);
-  }
+  if (options.ids || !w || reads.object) add("id.object", "object", Format::r32ui);
+  if (options.ids || reads.material) add("id.material", "material", Format::r32ui);
+  if (options.ids && options.primitive && planes.size() < kMostPlanes) add("id.primitive", "primitive", Format::r32ui);
   return planes;
 }
 
@@ -206,7 +215,7 @@ std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, 
   if (options.vertex_color) declare(g.albedo.interpolation, "vec4", "color");
   if (!options.instance_uniforms) declare(Interpolation::flat, "vec4", "base");
   if (options.instance_uniforms && direction == "in") text += "uniform vec4 base;\n";
-  if (options.uv || options.maps) declare(g.uv.interpolation, "vec2", "texcoord");
+  if (carries_uv(pipeline, options)) declare(g.uv.interpolation, "vec2", "texcoord");
   for (const std::string& map : maps_with_own_uv(options))
     declare(g.uv.interpolation, "vec2", (map + "_texcoord").c_str());
   if (options.normal_maps) declare(Interpolation::flat, "vec3", "along_u");
@@ -229,10 +238,16 @@ std::string viewer_text(const LightModel& model) {
 std::string surface_uniforms_text(const Pipeline& pipeline, const GlslOptions& options) {
   const std::vector<GlslPlane> planes = planes_of(pipeline, options);
   std::string text;
-  for (const GlslPlane& plane : planes)
-    if (plane.format != Format::r32ui && plane.name != "uv") text += "uniform sampler2D " + plane.sampler + ";\n";
+  const ProgramReads reads = surface_reads(pipeline, options);
   const GlslPlane& coverage = coverage_plane(planes);
-  if (coverage.format == Format::r32ui) text += "uniform usampler2D " + coverage.sampler + ";\n";
+  for (const GlslPlane& plane : planes) {
+    const bool id = plane.format == Format::r32ui;
+    const bool read = plane.name == "uv"            ? reads.uv
+                      : plane.name == "id.material" ? reads.material
+                      : id                          ? plane == coverage || (plane.name == "id.object" && reads.object)
+                                                    : true;
+    if (read) text += std::string("uniform ") + (id ? "usampler2D " : "sampler2D ") + plane.sampler + ";\n";
+  }
   if (pipeline.gbuffer.position_from_depth)
     text +=
         "uniform sampler2D depth_plane;\nuniform mat4 world_from_clip;\nuniform vec4 ndc_from_window;\n"
@@ -251,7 +266,7 @@ std::string read_surface_text(const Pipeline& pipeline, const GlslOptions& optio
          "  vec4 albedo = texelFetch(albedo_plane, pixel, 0);\n" +
          (reads_specular_plane(pipeline.light_model) ? "  vec4 gloss = texelFetch(specular_plane, pixel, 0);\n" : "") +
          (pipeline.light_model.emission ? "  vec4 emission = texelFetch(emission_plane, pixel, 0);\n" : "") +
-         surface_text(pipeline.light_model);
+         (pipeline.light_program.used() ? "" : surface_text(pipeline.light_model));
 }
 
 std::string lit_call_text(const LightModel& model, const std::string& buffer, const std::string& index) {
@@ -279,8 +294,9 @@ std::string material_text(const LightModel& model, const GlslOptions& options) {
   text += "  vec4 emission = vec4(glow.rgb, 1.0);  // a: the share of ambient light that arrives\n";
   const std::string color = shows_unlit(model) && options.unlit ? "  vec3 own_color = albedo.rgb;\n" : "";
   text += color;
-  for (const std::string& name : material_maps(model, options)) text += map_text(name, options);
-  if (maps_metals(model))
+  if (model.keeps_metals) text += "  gloss = vec4(glow.a, other.x, 0.0, 0.0);  // metallic, roughness\n";
+  for (const std::string& name : material_maps(model, options)) text += map_text(name, model, options);
+  if (maps_metals(model) && !model.keeps_metals)
     text +=
         "  gloss.rgb = vec3(0.04) * (1.0 - glow.a) + albedo.rgb * glow.a;\n"
         "  albedo.rgb = albedo.rgb * (1.0 - glow.a);\n";
@@ -348,7 +364,7 @@ void main() {
     text +=
         "  world_position = vec3(affine(world_from_object[0], p), affine(world_from_object[1], p), "
         "affine(world_from_object[2], p));\n";
-  if (options.uv || options.maps) text += "  texcoord = vertex_uv;\n";
+  if (carries_uv(pipeline, options)) text += "  texcoord = vertex_uv;\n";
   for (const std::string& map : maps_with_own_uv(options))
     text += "  " + map + "_texcoord = uv_of(" + map + "_uv_set);\n";
   if (options.normal_maps)
@@ -367,6 +383,13 @@ std::string fullscreen_vertex_text(int version) {
   return glsl_header(version, "one triangle over the whole image, drawn with 3 vertices and no buffer") + R"(
 void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }
 )";
+}
+
+Pipeline drawn_pipeline(const Pipeline& pipeline) {
+  const std::shared_ptr<const LightText> program = light_text_of(pipeline);
+  Pipeline p = program == nullptr ? pipeline : with_planes_of(pipeline, program->reads);
+  p.gbuffer = surface_planes(pipeline);
+  return p;
 }
 
 GlslShaders shaders_of(const Pipeline& pipeline, const GlslOptions& options) {

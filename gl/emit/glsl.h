@@ -62,12 +62,8 @@ struct GlslShaders {
 GlslShaders shaders_of(const Pipeline& pipeline, const GlslOptions& options);
 /// Of these the light pass, by the pipeline's strategy.
 void set_light_shaders(const Pipeline& pipeline, const GlslOptions& options, GlslShaders& shaders);
-/// The pipeline as OpenGL draws it: with the planes that surfaces really have.
-inline Pipeline drawn_pipeline(const Pipeline& pipeline) {
-  Pipeline p = pipeline;
-  p.gbuffer = surface_planes(pipeline);
-  return p;
-}
+/// The pipeline as OpenGL draws it: with the planes that surfaces really have, those of a light program among them.
+Pipeline drawn_pipeline(const Pipeline& pipeline);
 
 /// What RGBA32F texels a light is in `lights`: (position or -direction, type), (colour times the model's damping,
 /// range); where the falloff reads it (k0, k1, k2, 0); where there are cones (direction, 0) and the cone's numbers

@@ -1,5 +1,5 @@
 // The light passes of the strategies as GLSL: what is drawn over the scene again, or as the geometry of lights.
-#include "gl/emit/glsl.h"
+#include "gl/emit/light_text.h"
 
 namespace trueshade::oracle {
 
@@ -107,6 +107,12 @@ std::string light_loop_text(const Pipeline& p, const std::string& buffer, const 
 }
 
 void set_light_shaders(const Pipeline& pipeline, const GlslOptions& options, GlslShaders& shaders) {
+  if (pipeline.light_program.used()) {
+    shaders.light_vert =
+        is_forward(pipeline.strategy) ? shaders.geometry_vert : fullscreen_vertex_text(options.version);
+    shaders.light_frag = program_fragment_text(pipeline, options);
+    return;
+  }
   switch (pipeline.strategy) {
     case Strategy::forward_multipass:
     case Strategy::forward_loop:

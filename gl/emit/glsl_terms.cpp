@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "gl/emit/light_text.h"
 
 namespace trueshade::oracle {
 
@@ -97,6 +98,16 @@ std::string vulkan_text(ShaderStage stage, const std::string& text) {
   return out;
 }
 
+/// A light program's text in Vulkan's terms: a macro gives its block of parameters a binding, and leaves the text
+/// alone.
+std::string with_binding(std::string text) {
+  const size_t line = text.find("#line ");
+  return line == std::string::npos
+             ? text
+             : text.insert(line, "#define uniform layout(set = 0, binding = " + std::to_string(kParameterBinding) +
+                                     ") uniform\n");
+}
+
 int aligned(int offset, int to) { return (offset + to - 1) / to * to; }
 
 }  // namespace
@@ -136,16 +147,17 @@ int block_bytes(const std::vector<BlockMember>& members) {
 }
 
 std::string in_terms_of(ShaderApi api, ShaderStage stage, const std::string& text) {
+  const std::string own(own_text(text)), users = text.substr(own.size());
   switch (api) {
     case ShaderApi::gl:
     case ShaderApi::gl33:
       return text;
     case ShaderApi::es31:
-      return es_text(text);
+      return es_text(own) + users;
     case ShaderApi::vulkan:
       break;
   }
-  return vulkan_text(stage, text);
+  return vulkan_text(stage, own) + with_binding(users);
 }
 
 }  // namespace trueshade::oracle

@@ -23,7 +23,8 @@ constexpr int version_of(ShaderApi api) { return api == ShaderApi::gl || api == 
 
 enum class ShaderStage : uint8_t { vertex, fragment };
 
-/// A shader of gl/emit, written for OpenGL at version_of(api), in the terms of an API. The statements stay as they are.
+/// A shader of gl/emit, written for OpenGL at version_of(api), in the terms of an API. The statements stay as they are,
+/// and so does a light program's text.
 /// Throws Error(usage) for what ES has not: `noperspective` and gl_PrimitiveID.
 std::string in_terms_of(ShaderApi api, ShaderStage stage, const std::string& text);
 

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <sstream>
 
+#include "gl/emit/light_text.h"
+
 namespace trueshade::oracle {
 
 namespace {
@@ -55,7 +57,8 @@ Declaration declaration_of(std::string_view line) {
   return out;
 }
 
-ShaderInterface interface_of(std::string_view text) {
+ShaderInterface interface_of(std::string_view shader) {
+  const std::string_view text = own_text(shader);
   ShaderInterface out;
   std::istringstream lines{std::string(text)};
   for (std::string line; std::getline(lines, line);) {

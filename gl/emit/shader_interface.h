@@ -21,8 +21,8 @@ struct ShaderInterface {
   std::vector<ShaderVariable> inputs, outputs, uniforms;
 };
 
-/// Of a text that gl/emit wrote, in OpenGL's terms: one declaration a line.
-ShaderInterface interface_of(std::string_view text);
+/// Of a text that gl/emit wrote, in OpenGL's terms: one declaration a line; without what a light program declares.
+ShaderInterface interface_of(std::string_view shader);
 
 /// A line as a declaration: its kind ("in", "out", "uniform"; empty where it declares nothing) and what stands before
 /// that word ("flat"), and the variable.

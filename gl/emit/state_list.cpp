@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "gl/emit/draw_plan.h"
+#include "gl/emit/light_text.h"
 #include "gl/emit/post_glsl.h"
 #include "gl/emit/shader_interface.h"
 #include "scenes/pipeline/light_mesh.h"
@@ -85,6 +86,7 @@ constexpr Meaning kMeanings[] = {
      "viewport x, y, 2 / width, 2 / height (clip origin upper left: -2 / height); y grows upwards from the lowest row"},
     {"ndc_origin", "1, 1 (clip origin upper left: 1, -1)"},
     {"depth_to_ndc", "t, 1 / s of window z = s * ndc z + t"},
+    {"picture_place", "the picture in the window: x, y, width, height in pixels"},
     {"picture", "see post_passes"},
     {"blurred", "see post_passes"},
     {"logarithms", "see post_passes"},
@@ -122,7 +124,13 @@ std::string uniforms(const ShaderTexts& shaders) {
   return strings_of(lines);
 }
 
-std::string light_layout(const LightModel& model) {
+std::string light_layout(const Pipeline& pipeline) {
+  const LightModel& model = pipeline.light_model;
+  if (pipeline.light_program.used())
+    return strings_of({"x, y, z: position; w: range", "x, y, z: the way the light travels; w: type, as in the shader",
+                       "r, g, b: linear colour times intensity; w: cone, radians",
+                       "k0, k1, k2: attenuation; w: penumbra, radians", "r, g, b: its ambient share; w: spot_exponent",
+                       "cos_inner, cos_outer, cone_scale, cone_offset"});
   std::vector<std::string> texels{
       "x, y, z: position (directional: minus the direction it travels); "
       "w: 0 ambient, 1 directional, 2 point, 2.5 spot without a cone, 3 spot",
@@ -137,6 +145,17 @@ std::string light_layout(const LightModel& model) {
                          : "cosines where the light is 0 and where it is full, 0, 0");
   if (layout.ambient) texels.push_back("r, g, b, 0: its ambient share");
   return strings_of(texels);
+}
+
+/// Scalars of the light program's block of parameters.
+std::string parameters(const Pipeline& pipeline) {
+  const programs::LightOutline outline = light_text_of(pipeline)->outline;
+  std::vector<std::string> lines;
+  for (const programs::ParameterPlace& place : outline.parameters)
+    if (const std::optional<float> value = parameter_value(place.name, pipeline.light_program))
+      lines.push_back(outline.parameter_block + ", byte " + std::to_string(place.offset) + ": " +
+                      place.name.substr(place.name.find('.') + 1) + " = " + glsl_float(*value));
+  return strings_of(lines);
 }
 
 /// The state of a draw.
@@ -284,7 +303,8 @@ std::string state_list(const Pipeline& asked, const GlslOptions& options, Shader
          entry("light_draws", array_of(lights)) +
          (options.transparent ? entry("transparent_draws", array_of(glass)) : "") +
          entry("post_passes", post_list(asked, options.version, api)) + entry("uniforms", uniforms(shaders)) +
-         "  \"light_layout\": " + light_layout(pipeline.light_model);
+         (pipeline.light_program.used() ? entry("parameters", parameters(pipeline)) : "") +
+         "  \"light_layout\": " + light_layout(pipeline);
 }
 
 }  // namespace trueshade::oracle

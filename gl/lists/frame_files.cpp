@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/json_number.h"
+#include "gl/emit/light_text.h"
 #include "gl/lists/api_numbers.h"
 
 namespace trueshade::oracle {
@@ -376,6 +377,12 @@ std::string pass_text(const FrameList& list, const ListedPass& pass, ShaderApi a
   if (api == ShaderApi::vulkan)
     members.push_back(member("blocks", "{" + member("vertex", size_t(vertex.bytes_)) + ", " +
                                            member("fragment", size_t(fragment.bytes_)) + "}"));
+  std::vector<std::string> blocks;
+  for (const ListedBinding& b : pass.blocks)
+    blocks.push_back(member(
+        b.sampler, "{" + member("reads", quoted(b.source)) +
+                       (api == ShaderApi::vulkan ? ", " + member("binding", kParameterBinding) : std::string()) + "}"));
+  if (!blocks.empty()) members.push_back(member("uniform_blocks", joined_members('{', blocks, " ")));
   members.push_back(member("draws", joined_members('[', draws, "\n      ")));
   return joined_members('{', members, "\n    ");
 }

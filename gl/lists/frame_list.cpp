@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "gl/emit/light_text.h"
 #include "gl/emit/state_list.h"
 #include "gl/lists/scene_records.h"
 #include "scenes/pipeline/light_mesh.h"
@@ -21,6 +22,7 @@ std::vector<uint8_t> bytes_of(std::span<const T> values) {
   return bytes;
 }
 
+constexpr const char* kParameters = "parameters";  // the buffer of a light program's block
 constexpr glm::vec3 kQuadCorners[] = {{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}};
 
 /// A texture of one texel, so that a lookup gives it exactly.
@@ -112,9 +114,13 @@ class FrameLister {
     for (size_t i = 0; i < scene_.meshes.size(); ++i) add_mesh(i);
     const std::vector<InstanceRecord> records = instance_records(scene_, pipeline_);
     list_.buffers.push_back({"instances", bytes_of(std::span<const InstanceRecord>(records)), false});
-    add_texels("lights", light_records(scene_, pipeline_.light_model));
+    const bool program = pipeline_.light_program.used();
+    add_texels("lights", program ? program_light_records(scene_) : light_records(scene_, pipeline_.light_model));
+    if (const std::vector<uint8_t> block = parameter_bytes(pipeline_); !block.empty())
+      list_.buffers.push_back({kParameters, block, false});
     samplers_.push_back({"lights", "lights"});
-    if (reads_materials(pipeline_.light_model)) add_texels("materials", material_records(scene_, pipeline_));
+    if (reads_materials(pipeline_.light_model) || (program && options_.unlit))
+      add_texels("materials", material_records(scene_, pipeline_));
     samplers_.push_back({"materials", "materials"});
     if (options_.maps) add_textures();
   }
@@ -162,6 +168,8 @@ class FrameLister {
         for (const NamedValue& value : values_)
           if (value.name == v.name) pass.uniforms.push_back(value);
       }
+    if (plan.lights == DrawnLights::all && has_buffer(kParameters))
+      pass.blocks.push_back({light_text_of(pipeline_)->outline.parameter_block, kParameters});
     return pass;
   }
 
@@ -343,9 +351,13 @@ class FrameLister {
     const std::string name = extent == LightExtent::box      ? "indices.box"
                              : extent == LightExtent::sphere ? "indices.sphere"
                                                              : "indices.cone";
-    if (std::none_of(list_.buffers.begin(), list_.buffers.end(), [&](const ListedBuffer& b) { return b.name == name; }))
-      list_.buffers.push_back({name, bytes_of(std::span<const uint32_t>(shape.indices)), false});
+    if (!has_buffer(name)) list_.buffers.push_back({name, bytes_of(std::span<const uint32_t>(shape.indices)), false});
     return name;
+  }
+
+  bool has_buffer(const std::string& name) const {
+    return std::any_of(list_.buffers.begin(), list_.buffers.end(),
+                       [&](const ListedBuffer& b) { return b.name == name; });
   }
 
   const Scene& scene_;
@@ -363,7 +375,6 @@ class FrameLister {
 }  // namespace
 
 FrameList frame_list(const Scene& scene, const Pipeline& pipeline, const GlslOptions& options) {
-  require_no_light_program(pipeline, "a driver's frame");
   return FrameLister(scene, pipeline, options).listed();
 }
 

@@ -26,8 +26,8 @@ struct ListedPicture {
 
 struct ListedBuffer {
   std::string name;
-  std::vector<uint8_t> bytes;  ///< vertices, instances, indices of 32 bits, or RGBA32F texels
-  bool texels = false;
+  std::vector<uint8_t> bytes;  ///< indices are of 32 bits, texels RGBA32F, blocks std140
+  bool texels = false;         ///< else vertices, instances, indices, or a block of uniforms
 };
 
 /// A texture of a material, with how lookups read it.
@@ -72,6 +72,7 @@ struct ListedPass {
   std::vector<ListedAttribute> attributes;
   std::vector<NamedValue> uniforms;
   std::vector<ListedBinding> bindings;
+  std::vector<ListedBinding> blocks;  ///< a light program's block of parameters, and the buffer that it reads
   std::vector<ListedDraw> draws;
 };
 

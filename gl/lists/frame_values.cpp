@@ -39,6 +39,7 @@ std::vector<NamedValue> frame_values(const Scene& scene, const Pipeline& pipelin
     for (size_t c = 0; c < 4; ++c) out[2].numbers.push_back(rounded(clip[4 * c + r]));
   for (size_t i = 0; i < 16; ++i) out[3].numbers.push_back(rounded(inverse[i]));
   add_window_values(pipeline, shift_x, shift_y, out);
+  out.push_back({"picture_place", {double(shift_x), double(shift_y), double(pipeline.width), double(pipeline.height)}});
   return out;
 }
 

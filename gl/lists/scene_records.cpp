@@ -4,8 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "gl/emit/glsl.h"
+#include "gl/emit/light_text.h"
 #include "oracle/matrices.h"
+#include "scenes/light_cone.h"
 #include "scenes/pipeline/transparency.h"
 
 namespace trueshade::oracle {
@@ -196,13 +197,31 @@ std::vector<float> light_records(const Scene& scene, const LightModel& model) {
   return out;
 }
 
+std::vector<float> program_light_records(const Scene& scene) {
+  std::vector<float> out;
+  out.reserve(4 * size_t(kProgramLightTexels) * scene.lights.size());
+  for (const Light& light : scene.lights) {
+    const auto add = [&](const glm::vec3& v, float w) { out.insert(out.end(), {v.x, v.y, v.z, w}); };
+    const LightCone cone(light);
+    add(light.position, light.range);
+    add(light.direction, float(light.type));
+    add(light.color, light.cone_rad);
+    add(light.attenuation, light.penumbra_rad);
+    add(light.ambient, light.spot_exponent);
+    add({cone.cos_inner, cone.cos_outer, cone.scale}, cone.offset);
+  }
+  if (out.empty()) out.resize(4 * size_t(kProgramLightTexels));
+  return out;
+}
+
 std::vector<float> material_records(const Scene& scene, const Pipeline& pipeline) {
   const LightModel& model = pipeline.light_model;
   std::vector<float> records;
   const bool glass_in_albedo = pipeline.transparency.mode == TransparencyMode::into_albedo;
   for (const Material& m : scene.materials) {
     const float shininess = maps_metals(model) ? shininess_of_glossiness(m.roughness) : m.shininess;
-    const bool unlit = m.unlit && shows_unlit(model) && !(m.transparent && glass_in_albedo);
+    const bool unlit =
+        m.unlit && (pipeline.light_program.used() || (shows_unlit(model) && !(m.transparent && glass_in_albedo)));
     const bool metal_map = m.metallic_roughness_map.used() && !unlit;
     for (const float v :
          {m.specular_color.r, m.specular_color.g, m.specular_color.b, shininess, m.emission.r, m.emission.g,

@@ -56,6 +56,9 @@ ConeNumbers cone_numbers(const Light& light, Cone cone);
 /// The light records as the shaders read them, RGBA a texel.
 std::vector<float> light_records(const Scene& scene, const LightModel& model);
 
+/// The same for light programs, kProgramLightTexels a light; of no light, zeros for one.
+std::vector<float> program_light_records(const Scene& scene);
+
 /// Material records as material_text() reads them.
 std::vector<float> material_records(const Scene& scene, const Pipeline& pipeline);
 

@@ -10,9 +10,10 @@ import re
 
 from capture import run, texel_bytes
 
-# Of egl.xml. OpenGL's own numbers are in state.json.
+# Of egl.xml and gl.xml. Numbers of what every frame needs are in state.json.
 SURFACELESS_PLATFORM, OPENGL_ES_API, OPENGL_API = 0x31DD, 0x30A0, 0x30A2
 MAJOR_VERSION, MINOR_VERSION, END = 0x3098, 0x30FB, 0x3038
+UNIFORM_BUFFER, INVALID_INDEX = 0x8A11, 0xFFFFFFFF
 
 
 def open_context(api):
@@ -153,6 +154,14 @@ class Replay:
             gl.glBindTexture(*self.textures[source])
             gl.glUniform1i(gl.glGetUniformLocation(program, name.encode()), unit)
 
+    def bind_blocks(self, program, blocks):
+        """Blocks of uniforms, of a light program, to the buffers that they read."""
+        for place, (name, block) in enumerate(blocks.items()):
+            index = self.gl.glGetUniformBlockIndex(program, name.encode())
+            if index != INVALID_INDEX:
+                self.gl.glUniformBlockBinding(program, index, place)
+                self.gl.glBindBufferBase(UNIFORM_BUFFER, place, self.buffers[block["reads"]])
+
     def point_attributes(self, attributes, draw):
         gl = self.gl
         for a in attributes:
@@ -175,6 +184,7 @@ class Replay:
         gl.glBindVertexArray(gl.new("VertexArrays"))
         self.set_inputs(p, program, {name: u["value"] for name, u in p["uniforms"].items() if "value" in u},
                         {name: s["reads"] for name, s in p["samplers"].items() if "reads" in s})
+        self.bind_blocks(program, p.get("uniform_blocks", {}))
         for draw in p["draws"]:
             self.set_inputs(p, program, draw["uniforms"], draw["samplers"])
             self.point_attributes(p["attributes"], draw)

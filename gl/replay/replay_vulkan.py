@@ -171,7 +171,7 @@ class Replay:
             self.images[name] = self.vk.image(self.numbers[picture["format"]], picture["size"], 1, usage, aspect)
             self.samplers[name] = self.vk.create("Sampler", 0, 0, 0, 0, 2, 2, 2, 0, 0, 1, 0, 0, 0, 0, 0, 0)
         for name, buffer in frame.state["buffers"].items():
-            usage = 0x4 if "texels" in buffer else 0xC0  # read as texels, or as vertices and indices
+            usage = 0x4 if "texels" in buffer else 0xD0  # read as texels, or as vertices, indices and uniforms
             self.buffers[name], _ = self.vk.buffer(buffer["bytes"], usage, frame.bytes_of(buffer))
             if "texels" in buffer:
                 texel = self.numbers["VK_FORMAT_R32G32B32A32_SFLOAT"]
@@ -207,6 +207,8 @@ class Replay:
         for s in p["samplers"].values():
             kind = TEXEL_BUFFER if s["type"] == "samplerBuffer" else IMAGE
             bindings.append(record("IIIIQ", s["binding"], kind, 1, bits[s["stage"]], None))
+        for block in p.get("uniform_blocks", {}).values():  # of a light program
+            bindings.append(record("IIIIQ", block["binding"], UNIFORM_BUFFER, 1, FRAGMENT, None))
         set_layout = self.vk.create("DescriptorSetLayout", 0, len(bindings), bindings)
         return set_layout, self.vk.create("PipelineLayout", 0, 1, record("Q", set_layout), 0, None)
 
@@ -273,6 +275,9 @@ class Replay:
                        info("DescriptorSetAllocateInfo", pool, 1, record("Q", set_layout)))
         for binding, block in enumerate(blocks):
             writes.append(info("WriteDescriptorSet", made, binding, 0, 1, UNIFORM_BUFFER, None, block, None))
+        for block in p.get("uniform_blocks", {}).values():
+            whole = record("QQQ", self.buffers[block["reads"]], 0, ALL)
+            writes.append(info("WriteDescriptorSet", made, block["binding"], 0, 1, UNIFORM_BUFFER, None, whole, None))
         for name, s in p["samplers"].items():
             source = draw["samplers"].get(name, s.get("reads"))
             if s["type"] == "samplerBuffer":

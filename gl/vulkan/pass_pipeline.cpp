@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "gl/emit/light_text.h"
 #include "gl/vulkan/spirv.h"
 
 namespace trueshade::oracle {
@@ -65,7 +66,8 @@ VkDescriptorSetLayoutBinding binding_of(uint32_t binding, VkDescriptorType type,
 }
 
 /// Blocks, samplers, and the layouts that they make.
-void add_layouts(VulkanDevice& device, const std::array<const std::string*, 2>& texts, PassPipeline& out) {
+void add_layouts(VulkanDevice& device, const std::array<const std::string*, 2>& texts, bool parameters,
+                 PassPipeline& out) {
   const VulkanFunctions& vk = device.vk();
   std::vector<VkDescriptorSetLayoutBinding> bindings;
   for (const ShaderStage stage : {ShaderStage::vertex, ShaderStage::fragment}) {
@@ -80,6 +82,9 @@ void add_layouts(VulkanDevice& device, const std::array<const std::string*, 2>& 
           v.is_buffer() ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, stage));
     }
   }
+  if (parameters)
+    bindings.push_back(
+        binding_of(uint32_t(kParameterBinding), VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, ShaderStage::fragment));
   auto set = typed<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
   set.bindingCount = uint32_t(bindings.size()), set.pBindings = bindings.data();
   check_vulkan(vk.vkCreateDescriptorSetLayout(device.device(), &set, nullptr, &out.set_layout), "a set's layout");
@@ -217,7 +222,7 @@ PassPipeline make_pass_pipeline(VulkanDevice& device, const FrameList& list, con
         ->second;
   };
   PassPipeline out;
-  add_layouts(device, {&text(pass.vert), &text(pass.frag)}, out);
+  add_layouts(device, {&text(pass.vert), &text(pass.frag)}, !pass.blocks.empty(), out);
   std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
   for (VkPipelineShaderStageCreateInfo& stage : stages)
     stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, stage.pName = "main";

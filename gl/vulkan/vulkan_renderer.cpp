@@ -6,6 +6,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "gl/emit/light_text.h"
 #include "gl/lists/frame_list.h"
 #include "gl/lists/scene_records.h"
 #include "gl/vulkan/device.h"
@@ -62,7 +63,8 @@ class VulkanDrawing {
       buffers_[b.name] =
           device.make_buffer(b.bytes.size(),
                              b.texels ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT
-                                      : VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
+                                      : VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
+                                            VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                              b.bytes, b.texels);
     for (const ListedTexture& t : list.textures)
       textures_[t.name] = {device.make_texture(t.texture),
@@ -142,11 +144,12 @@ class VulkanDrawing {
     const auto own = [](const ListedDraw& d) { return !d.bindings.empty(); };
     const auto sets = uint32_t(1 + std::count_if(pass.draws.begin(), pass.draws.end(), own));
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 2 * sets},
+                                          {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, sets},
                                           {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 8 * sets},
                                           {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 16 * sets}};
     VkDescriptorPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
-    info.maxSets = sets, info.poolSizeCount = 3, info.pPoolSizes = sizes;
+    info.maxSets = sets, info.poolSizeCount = uint32_t(std::size(sizes)), info.pPoolSizes = sizes;
     VkDescriptorPool pool = VK_NULL_HANDLE;
     check_vulkan(vk_.vkCreateDescriptorPool(device_.device(), &info, nullptr, &pool), "making a descriptor pool");
     device_.at_end([&device = device_, pool] { device.vk().vkDestroyDescriptorPool(device.device(), pool, nullptr); });
@@ -192,6 +195,10 @@ class VulkanDrawing {
     for (const ShaderStage stage : {ShaderStage::vertex, ShaderStage::fragment}) {
       const VkDescriptorBufferInfo block{uniforms.buffer, 0, bytes[size_t(stage)]};
       write(uint32_t(block_binding(stage)), VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, &block, nullptr, nullptr);
+    }
+    for (const ListedBinding& b : pass.blocks) {
+      const VkDescriptorBufferInfo block{buffers_.at(b.source).buffer, 0, VK_WHOLE_SIZE};
+      write(uint32_t(kParameterBinding), VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, &block, nullptr, nullptr);
     }
     for (const BoundSampler& s : out.pipeline.samplers) {
       const std::string& source = source_of(pass, d, s.variable.name);

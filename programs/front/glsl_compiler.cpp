@@ -27,7 +27,7 @@ struct GlslangProcess {
 /// What a line of glslang's log says: `ERROR: TEXT:LINE: message`, and of newer versions `ERROR: TEXT:LINE:COLUMN:
 /// ...`.
 struct GlslError {
-  int text = -1, line = 0, column = 0;  ///< text: 0 the user's, 1 the tail
+  int text = -1, line = 0, column = 0;  ///< text: its number among those that were compiled
   std::string message;
 };
 
@@ -65,21 +65,23 @@ int column_of(const std::string& text, const GlslError& error) {
   return at == std::string_view::npos || line.find(quoted, at + 1) != std::string_view::npos ? 0 : int(at) + 1;
 }
 
-[[noreturn]] void throw_first(const std::string& file, const std::string& text, const std::string& log) {
+/// `number`: of the user's text among those that were compiled.
+[[noreturn]] void throw_first(const std::string& file, const std::string& text, int number, const std::string& log) {
   for (size_t first = 0; first < log.size();) {
     const size_t end = std::min(log.find('\n', first), log.size());
     const std::optional<GlslError> error = error_in(std::string_view(log).substr(first, end - first));
     first = end + 1;
     if (!error) continue;
     std::string where = file;
-    if (error->text == 0 && error->line > 0) {
+    if (error->text == number && error->line > 0) {
       where += ":" + std::to_string(error->line);
       if (const int column = column_of(text, *error); column > 0) where += ":" + std::to_string(column);
     }
-    if (error->text == 1)
+    if (error->text == number + 1)
       throw Error(ErrorKind::bad_input, where, "clashes with the entry point: " + error->message,
                   "leave no brace or comment open, and define neither main nor names with ts_");
-    throw Error(ErrorKind::bad_input, where, error->message, "correct the GLSL");
+    throw Error(ErrorKind::bad_input, where, error->message,
+                number == 0 ? "correct the GLSL" : "leave alone what a driver's shader has before it");
   }
   throw Error(ErrorKind::bad_input, file, "is not GLSL that glslang compiles", "correct the GLSL");
 }
@@ -87,7 +89,7 @@ int column_of(const std::string& text, const GlslError& error) {
 }  // namespace
 
 std::vector<uint32_t> spirv_of_glsl(const std::string& file, const std::string& text, const std::string& tail,
-                                    bool keep_uncalled) {
+                                    bool keep_uncalled, const std::string& before) {
   static const GlslangProcess process;
   constexpr int kVersion = 460;
   auto messages = EShMessages(EShMsgSpvRules | EShMsgVulkanRules);
@@ -96,19 +98,21 @@ std::vector<uint32_t> spirv_of_glsl(const std::string& file, const std::string& 
   messages = EShMessages(messages | EShMsgDisplayErrorColumn);
 #endif
   const std::string ended = text + "\n";  // a last line without an end would run into the tail
-  const char* const texts[] = {ended.c_str(), tail.c_str()};
-  const int lengths[] = {int(ended.size()), int(tail.size())};
+  const char* const texts[] = {before.c_str(), ended.c_str(), tail.c_str()};
+  const int lengths[] = {int(before.size()), int(ended.size()), int(tail.size())};
+  const int number = before.empty() ? 0 : 1, left_out = 1 - number;  // without `before`, the text is the first
   glslang::TShader shader(EShLangCompute);
-  shader.setStringsWithLengths(texts, lengths, 2);
+  shader.setStringsWithLengths(texts + left_out, lengths + left_out, 3 - left_out);
   shader.setPreamble(kLightInterface);
   shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, glslang::EShClientVulkan, 100);
   shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
   shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
   shader.setAutoMapBindings(true);
-  if (!shader.parse(GetDefaultResources(), kVersion, false, messages)) throw_first(file, text, shader.getInfoLog());
+  if (!shader.parse(GetDefaultResources(), kVersion, false, messages))
+    throw_first(file, text, number, shader.getInfoLog());
   glslang::TProgram program;
   program.addShader(&shader);
-  if (!program.link(messages) || !program.mapIO()) throw_first(file, text, program.getInfoLog());
+  if (!program.link(messages) || !program.mapIO()) throw_first(file, text, number, program.getInfoLog());
   glslang::SpvOptions options;
   options.generateDebugInfo = true;
   options.disableOptimizer = true;

@@ -2,6 +2,7 @@
 #include "programs/front/light_program.h"
 
 #include "core/error.h"
+#include "programs/front/light_outline.h"
 
 namespace trueshade::programs {
 namespace {
@@ -15,5 +16,7 @@ namespace {
 
 Program program_from_glsl(const std::string& file, const std::string&, const ProgramLimits&) { refuse(file); }
 Program program_from_spirv(const std::string& file, std::vector<uint32_t>, const ProgramLimits&) { refuse(file); }
+std::string_view light_interface() { return {}; }
+LightOutline light_outline(const std::string& file, const std::string&, const std::string&) { refuse(file); }
 
 }  // namespace trueshade::programs

@@ -6,6 +6,7 @@
 #include "core/fp_env.h"
 #include "core/threads/parallel_for.h"
 #include "scenes/pipeline/pipeline.h"
+#include "scenes/pipeline/program_inputs.h"
 
 namespace trueshade {
 namespace {
@@ -154,10 +155,7 @@ void validate(const Pipeline& pipeline) {
   check_blend(pipeline.blend, "blend");
   check_transparency(pipeline);
   require_enumerator(pipeline.strategy, Strategy::deferred_loop, "strategy");
-  if (pipeline.light_program.used() && blends_lights(pipeline.strategy))
-    throw Error(ErrorKind::usage, "strategy",
-                "light programs are summed, and " + std::string(name_of(pipeline.strategy)) + " blends light by light",
-                "deferred-loop or forward-loop");
+  require_summed_lights(pipeline);
   require_format(pipeline.target, kTargetFormats, "target");
   require_enumerator(pipeline.profile, NumericProfile::mesa_llvmpipe_22_3, "profile");
   check_post(pipeline.post);

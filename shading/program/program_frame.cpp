@@ -12,7 +12,7 @@
 #include "core/sha256.h"
 #include "programs/front/light_program.h"
 #include "raster/view.h"
-#include "scenes/trig.h"
+#include "scenes/light_cone.h"
 
 namespace trueshade {
 namespace {
@@ -34,23 +34,10 @@ programs::Program compiled(const LightProgram& program) {
 
 bool starts(std::string_view name, std::string_view field) { return name.starts_with(field); }
 
-ProgramReads reads_of(const Executable& executable) {
-  ProgramReads reads;
-  for (const ProgramInput& input : executable.program.inputs) {
-    const std::string_view name = input.name;
-    for (const std::string_view absent : {"surface.uv1", "surface.tangent", "surface.user", "light.user"})
-      if (starts(name, absent))
-        throw Error(ErrorKind::bad_input, executable.program.name, "reads " + input.name + ", which nothing fills yet",
-                    "another field");
-    reads.gloss = reads.gloss || starts(name, "surface.specular") || starts(name, "surface.shininess");
-    reads.metals = reads.metals || starts(name, "surface.metallic") || starts(name, "surface.roughness");
-    reads.emission = reads.emission || starts(name, "surface.emission") || starts(name, "surface.occlusion");
-    reads.uv = reads.uv || starts(name, "surface.uv");
-  }
-  if (reads.gloss && reads.metals)
-    throw Error(ErrorKind::bad_input, executable.program.name,
-                "reads both specular or shininess and metallic or roughness, which share a plane", "one pair of them");
-  return reads;
+std::vector<std::string> input_names(const Executable& executable) {
+  std::vector<std::string> names;
+  for (const ProgramInput& input : executable.program.inputs) names.push_back(input.name);
+  return names;
 }
 
 /// The number behind the last point of a name, "x" to "w" as 0 to 3.
@@ -89,17 +76,6 @@ std::optional<uint32_t> of_view(std::string_view name, const Scene& scene, const
   return std::nullopt;
 }
 
-/// What a light program is given of a light that its own fields do not say: docs/arithmetic.md section 8, each made in
-/// double and rounded once.
-struct LightCone {
-  float cos_inner, cos_outer, scale, offset;
-  explicit LightCone(const Light& light) {
-    const double outer = cosine(double(light.cone_rad) + double(light.penumbra_rad));
-    const double inner = cosine(double(light.cone_rad)), width = 1.0 / std::max(0.001, inner - outer);
-    cos_inner = float(inner), cos_outer = float(outer), scale = float(width), offset = float(-outer * width);
-  }
-};
-
 uint32_t of_light(std::string_view name, const Light& light, uint32_t index) {
   const int c = component_of(name);
   const auto is = [name](std::string_view field) { return starts(name, field); };
@@ -122,17 +98,11 @@ uint32_t of_light(std::string_view name, const Light& light, uint32_t index) {
   return 0;  // right, up: a light without an area
 }
 
-/// `parameters.gain` or a component of it, `parameters.tint.y`.
-std::optional<uint32_t> of_parameters(std::string_view name, const LightProgram& program) {
-  for (const ProgramParameter& given : program.parameters) {
-    const std::string whole = "parameters." + given.name;
-    if (!starts(name, whole)) continue;
-    const std::string_view rest = name.substr(whole.size());
-    const size_t c = rest.size() == 2 && rest[0] == '.' ? size_t(component_of(rest)) : 0;
-    if ((!rest.empty() && rest.size() != 2) || c >= given.value.size()) continue;
-    return bits_of(given.value[c]);
-  }
-  return std::nullopt;
+/// A parameter, whose value is a number, as its type has it.
+std::optional<uint32_t> of_parameters(const ProgramInput& input, const LightProgram& program) {
+  const std::optional<float> value = parameter_value(input.name, program);
+  if (!value) return std::nullopt;
+  return input.type == programs::Type::f32 ? bits_of(*value) : uint32_t(int64_t(*value));
 }
 
 }  // namespace
@@ -154,23 +124,13 @@ std::shared_ptr<const Executable> executable_of(const LightProgram& program) {
 
 Pipeline with_planes_of_program(const Pipeline& pipeline) {
   if (!pipeline.light_program.used()) return pipeline;
-  const ProgramReads reads = reads_of(*executable_of(pipeline.light_program));
-  Pipeline out = pipeline;
-  LightModel& m = out.light_model;
-  m = {};
-  m.alpha_from_albedo = pipeline.light_model.alpha_from_albedo;
-  m.falloff = Falloff::none, m.diffuse = Diffuse::unclamped, m.cone = Cone::none;
-  m.order = TermOrder::albedo_last;  // unlit surfaces keep their colour as albedo
-  m.specular = reads.gloss || reads.metals ? Specular::blinn_phong : Specular::none;
-  m.specular_source = reads.metals ? SpecularSource::metallic_roughness : SpecularSource::material;
-  m.keeps_metals = reads.metals;
-  m.emission = reads.emission;
-  return out;
+  const std::shared_ptr<const Executable> executable = executable_of(pipeline.light_program);
+  return with_planes_of(pipeline, program_reads(executable->program.name, input_names(*executable)));
 }
 
 ProgramFrame::ProgramFrame(const Scene& scene, const Pipeline& pipeline)
     : executable_(trueshade::executable_of(pipeline.light_program)),
-      reads_(reads_of(*executable_)),
+      reads_(program_reads(executable_->program.name, input_names(*executable_))),
       constants_(*executable_) {
   for (const Material& m : scene.materials) unlit_.push_back(m.unlit);
   set_constants(scene, pipeline);
@@ -180,19 +140,12 @@ ProgramFrame::ProgramFrame(const Scene& scene, const Pipeline& pipeline)
 void ProgramFrame::set_constants(const Scene& scene, const Pipeline& pipeline) {
   const programs::Program& program = executable_->program;
   const programs::Stage& stage = executable_->at(Rate::constant);
-  for (const ProgramParameter& given : pipeline.light_program.parameters)
-    if (std::none_of(program.inputs.begin(), program.inputs.end(),
-                     [&](const ProgramInput& input) { return starts(input.name, "parameters." + given.name); }))
-      throw Error(ErrorKind::usage, "--light-parameter", program.name + " reads no parameter '" + given.name + "'",
-                  "a member of its block Parameters");
+  check_values(pipeline.light_program, input_names(*executable_));
   for (size_t i = 0; i < stage.inputs.size(); ++i) {
     const ProgramInput& input = program.inputs[stage.inputs[i]];
     std::optional<uint32_t> value = of_view(input.name, scene, pipeline);
-    if (!value) value = of_parameters(input.name, pipeline.light_program);
-    if (!value)
-      throw Error(ErrorKind::usage, program.name, "nothing gives " + input.name,
-                  starts(input.name, "parameters.") ? "--light-parameter NAME=VALUE" : "another field");
-    constants_.set_input(i, *value);
+    if (!value) value = of_parameters(input, pipeline.light_program);
+    constants_.set_input(i, value.value());  // check_values() has refused what has none
   }
   programs::Registers registers(*executable_);
   run_constants(*executable_, constants_, registers);

@@ -6,18 +6,10 @@
 
 #include "programs/run/execution.h"
 #include "raster/surfaces/surfaces.h"
-#include "scenes/pipeline/pipeline.h"
+#include "scenes/pipeline/program_inputs.h"
 #include "scenes/scene.h"
 
 namespace trueshade {
-
-/// Which fields of a surface a light program reads, beside position, normal and albedo.
-struct ProgramReads {
-  bool gloss = false;     ///< specular, shininess
-  bool metals = false;    ///< metallic, roughness
-  bool emission = false;  ///< emission, occlusion
-  bool uv = false;
-};
 
 /// The program of a pipeline, compiled once a process for each text. Error(bad_input) names the place in its file.
 std::shared_ptr<const programs::Executable> executable_of(const LightProgram& program);

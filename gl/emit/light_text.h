@@ -1,0 +1,44 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gl/emit/glsl.h"
+#include "programs/front/light_outline.h"
+#include "scenes/pipeline/program_inputs.h"
+
+// Light passes that contain a light program (docs/light_programs.md): what is ours, then the user's text as it is, then
+// functions of ours that call it.
+namespace trueshade::oracle {
+
+/// What the shaders of a pipeline must know of its light program.
+struct LightText {
+  programs::LightOutline outline;
+  ProgramReads reads;
+};
+
+/// Compiled once a process for each text; null where the pipeline has no light program. Error where the program, its
+/// parameters or the strategy are such that no shader can be made.
+std::shared_ptr<const LightText> light_text_of(const Pipeline& pipeline);
+
+/// What the program reads of surfaces; the material too where unlit ones show their albedo. Nothing without a program.
+ProgramReads surface_reads(const Pipeline& pipeline, const GlslOptions& options);
+
+/// The bytes of the program's block of parameters, by std140; empty where it has none.
+std::vector<uint8_t> parameter_bytes(const Pipeline& pipeline);
+
+/// The fragment shader of deferred-loop or forward-loop under a light program.
+std::string program_fragment_text(const Pipeline& pipeline, const GlslOptions& options);
+
+/// What stands before the user's text in such a shader, or the whole of another.
+std::string_view own_text(std::string_view shader);
+
+/// RGBA32F texels of a light in `lights` under a light program: position, range; direction, type; colour, cone;
+/// attenuation, penumbra; ambient, spot exponent; cos_inner, cos_outer, cone_scale, cone_offset.
+inline constexpr int kProgramLightTexels = 6;
+
+/// Where Vulkan binds the block of parameters, in set 0.
+inline constexpr int kParameterBinding = 7;
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,186 @@
+// Light passes of a light program as GLSL. Ours comes before the user's text, so that no macro of the user's changes
+// it, and calls the program by functions that stand behind the text.
+#include <string>
+
+#include "gl/emit/light_text.h"
+
+namespace trueshade::oracle {
+namespace {
+
+/// Where the user's text begins: what is behind the last line is string 1 to compilers.
+constexpr std::string_view kUserText =
+    "\nlayout(std140) uniform;  // so that a block which says nothing has these offsets\n#line 1 1\n";
+
+constexpr const char* kUniforms = R"(uniform vec3 view_axis;
+uniform vec4 clip_from_world[4];  // rows
+uniform vec4 picture_place;       // x, y, width, height in the window
+uniform samplerBuffer lights;     // six texels a light
+uniform int light_count;
+layout(location = 0) out vec4 target;
+
+)";
+
+constexpr const char* kLightOf = R"(
+Light ts_light_of(int i) {
+  vec4 t0 = texelFetch(lights, 6 * i), t1 = texelFetch(lights, 6 * i + 1), t2 = texelFetch(lights, 6 * i + 2);
+  vec4 t3 = texelFetch(lights, 6 * i + 3), t4 = texelFetch(lights, 6 * i + 4), t5 = texelFetch(lights, 6 * i + 5);
+  Light l;
+  l.type = uint(t1.w);
+  l.index = uint(i);
+  l.position = t0.xyz;
+  l.range = t0.w;
+  l.direction = t1.xyz;
+  l.color = t2.xyz;
+  l.attenuation = t3.xyz;
+  l.ambient = t4.xyz;
+  l.cone = t2.w;
+  l.penumbra = t3.w;
+  l.cos_inner = t5.x;
+  l.cos_outer = t5.y;
+  l.cone_scale = t5.z;
+  l.cone_offset = t5.w;
+  l.spot_exponent = t4.w;
+  l.right = l.up = vec3(0.0);
+  l.shadow = l.cookie = -1;
+  for (int k = 0; k < 4; ++k) l.user[k] = vec4(0.0);
+  return l;
+}
+
+View ts_view() {
+  View v;
+  v.eye = eye;
+  v.axis = -view_axis;
+  v.view = v.projection = mat4(0.0);
+  v.view_projection =
+      transpose(mat4(clip_from_world[0], clip_from_world[1], clip_from_world[2], clip_from_world[3]));
+  v.size = picture_place.zw;
+  v.time = 0.0;
+  v.frame = 0u;
+  return v;
+}
+)";
+static_assert(kProgramLightTexels == 6);
+
+/// Functions behind the user's text, declared: those of them that main calls.
+std::string declared_text(const programs::LightOutline& has) {
+  const bool order = !has.variables.empty() && (has.defines_start || has.defines_finish);
+  return std::string("\n// Behind the light program's text.\nvec3 ts_added(Surface s, Light l, View v);\n") +
+         (order && has.defines_reaches ? "bool ts_reaches(Surface s, Light l, View v);\n" : "") +
+         (has.defines_start ? "vec3 ts_start(Surface s, View v);\n" : "") +
+         (has.defines_finish ? "vec4 ts_finish(Surface s, View v, vec3 sum);\n" : "") +
+         (has.variables.empty()
+              ? ""
+              : "void ts_keep();   // what the file's variables start as\nvoid ts_fresh();  // makes them so\n");
+}
+
+std::string tail_text(const programs::LightOutline& has) {
+  std::string text =
+      "#line 1 2\nvec3 ts_added(Surface ts_s, Light ts_l, View ts_v) { return light(ts_s, ts_l, ts_v); }\n";
+  if (has.defines_reaches)
+    text += "bool ts_reaches(Surface ts_s, Light ts_l, View ts_v) { return reaches(ts_s, ts_l, ts_v); }\n";
+  if (has.defines_start) text += "vec3 ts_start(Surface ts_s, View ts_v) { return start(ts_s, ts_v); }\n";
+  if (has.defines_finish)
+    text += "vec4 ts_finish(Surface ts_s, View ts_v, vec3 ts_sum) { return finish(ts_s, ts_v, ts_sum); }\n";
+  if (has.variables.empty()) return text;
+  std::string keep, fresh;
+  for (size_t i = 0; i < has.variables.size(); ++i) {
+    const programs::FileVariable& v = has.variables[i];
+    const std::string kept = "ts_kept_" + std::to_string(i);
+    if (v.zero.empty()) text += v.type + ' ' + kept + ";\n";
+    if (v.zero.empty()) keep += "  " + kept + " = " + v.name + ";\n";
+    fresh += "  " + v.name + " = " + (v.zero.empty() ? kept : v.zero) + ";\n";
+  }
+  return text + "void ts_keep() {\n" + keep + "}\nvoid ts_fresh() {\n" + fresh + "}\n";
+}
+
+/// `Surface s` of `vec3 P, stored_normal` and `vec4 albedo, gloss, emission`.
+std::string surface_fields_text(const Pipeline& p, const ProgramReads& reads) {
+  const bool forward = is_forward(p.strategy);
+  const auto id = [&](bool read, const char* plane, const char* varying) {
+    return !read     ? std::string("0u")
+           : forward ? std::string(varying)
+                     : "texelFetch(" + std::string(plane) + ", pixel, 0).x";
+  };
+  const auto field = [](const char* name, const std::string& value) {
+    return "  s." + std::string(name) + " = " + value + ";\n";
+  };
+  return "  Surface s;\n" + field("position", "P") + field("normal", "stored_normal") + field("albedo", "albedo") +
+         field("specular", reads.gloss ? "gloss.rgb" : "vec3(0.0)") +
+         field("shininess", reads.gloss ? "gloss.a" : "0.0") + field("metallic", reads.metals ? "gloss.r" : "0.0") +
+         field("roughness", reads.metals ? "gloss.g" : "0.0") +
+         field("occlusion", reads.emission ? "emission.a" : "1.0") +
+         field("emission", reads.emission ? "emission.rgb" : "vec3(0.0)") +
+         field("uv", !reads.uv ? "vec2(0.0)"
+                     : forward ? "texcoord"
+                               : "texelFetch(uv_plane, pixel, 0).xy") +
+         field("uv1", "vec2(0.0)") + field("tangent", "vec4(0.0)") +
+         field("object", id(reads.object, "object_plane", "ids.x")) +
+         field("material", id(reads.material, "material_plane", "ids.y")) +
+         field("pixel_x", "uint(gl_FragCoord.x - picture_place.x)") +
+         field("pixel_y", "uint(gl_FragCoord.y - picture_place.y)") +
+         "  for (int k = 0; k < 4; ++k) s.user[k] = vec4(0.0);\n";
+}
+
+/// Surfaces whose material is unlit are done.
+constexpr const char* kUnlit = R"(  if (texelFetch(materials, 3 * int(s.material) - 1).z == 1.0) {
+    target = albedo;
+    return;
+  }
+)";
+static_assert(kMaterialTexels == 3);
+
+/// Leaves the loop's body where the light's extent does not have the pixel.
+std::string extent_text_of(const Pipeline& p) {
+  const RangeLimits limits = limits_range(p);
+  if (!limits.any()) return {};
+  const char* bounded = limits.point && limits.spot ? "l.type == light_type_point || l.type == light_type_spot"
+                        : limits.point              ? "l.type == light_type_point"
+                                                    : "l.type == light_type_spot";
+  return std::string("    if ((") + bounded + ") && !(distance(l.position, P) < l.range)) continue;\n";
+}
+
+/// The file's variables as the functions before start() leave them, whatever the light.
+std::string order_text(const programs::LightOutline& has) {
+  if (has.variables.empty()) return {};
+  return std::string("  ts_fresh();\n  ts_added(s, ts_light_of(0), v);\n") +
+         (has.defines_reaches ? "  ts_reaches(s, ts_light_of(0), v);\n" : "");
+}
+
+std::string sum_text_of(const Pipeline& p, const programs::LightOutline& has) {
+  const bool kept = !has.variables.empty();
+  std::string text = "  View v = ts_view();\n";
+  if (kept) text += "  ts_keep();\n";
+  text += has.defines_start ? order_text(has) + "  vec3 sum = ts_start(s, v);\n" : "  vec3 sum = vec3(0.0);\n";
+  text += "  for (int i = 0; i < light_count; ++i) {\n    Light l = ts_light_of(i);\n" + extent_text_of(p) +
+          (kept ? "    ts_fresh();\n" : "") +
+          "    vec3 added = ts_added(s, l, v);\n    if (added != vec3(0.0)) sum += added;\n  }\n";
+  if (!has.defines_finish)
+    return text + "  target = vec4(sum, " + (p.light_model.alpha_from_albedo ? "albedo.a" : "1.0") + ");\n";
+  return text + order_text(has) + (kept && has.defines_start ? "  ts_start(s, v);\n" : "") +
+         "  target = ts_finish(s, v, sum);\n";
+}
+
+}  // namespace
+
+std::string program_fragment_text(const Pipeline& p, const GlslOptions& options) {
+  const std::shared_ptr<const LightText> program = light_text_of(p);
+  const programs::LightOutline& has = program->outline;
+  const ProgramReads reads = surface_reads(p, options);
+  const bool forward = is_forward(p.strategy);
+  std::string text = glsl_header(
+      options.version, forward ? "the scene, all lights summed in order by a light program"
+                               : "light pass: sums all lights in order by a light program, one store a pixel");
+  text += forward ? varyings_text(p, options, "in") + viewer_text(p.light_model) : surface_uniforms_text(p, options);
+  if (options.unlit || (forward && reads_materials(p.light_model))) text += "uniform samplerBuffer materials;\n";
+  text += kUniforms + std::string(programs::light_interface()) + kLightOf + declared_text(has) + "\nvoid main() {\n";
+  text += forward ? "  vec3 P = world_position;\n  vec3 stored_normal = " + normal_text(p, options) + ";\n" +
+                        material_text(p.light_model, options)
+                  : read_surface_text(p, options);
+  text += surface_fields_text(p, reads) + (options.unlit ? kUnlit : "") + sum_text_of(p, has) + "}\n";
+  const std::string& file = p.light_program.text;
+  return text + std::string(kUserText) + file + (file.ends_with('\n') ? "" : "\n") + tail_text(has);
+}
+
+std::string_view own_text(std::string_view shader) { return shader.substr(0, shader.find(kUserText)); }
+
+}  // namespace trueshade::oracle
