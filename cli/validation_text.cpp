@@ -239,6 +239,16 @@ std::vector<std::string> hidden_by_materials(const oracle::Verdict& v) {
   return lines;
 }
 
+/// How small an error of light single pixels show.
+std::string power_line(const oracle::Verdict& v) {
+  for (const StageVerdict& s : v.stages)
+    if (s.power >= 1)
+      return "half of the lit pixels show no error of light by themselves";
+    else if (s.power > 0)
+      return "light that is " + real(100 * s.power, "%.2g") + " % more is in no legal set at half of the lit pixels";
+  return "";
+}
+
 const StageVerdict* failed_stage(const oracle::Verdict& v) {
   for (const StageVerdict& s : v.stages)
     if (!s.passes()) return &s;
@@ -261,10 +271,14 @@ std::string left_out_line(const Validation& v) {
          real(all > 0 ? 100.0 * double(count) / double(all) : 0.0, "%.3g") + " %";
 }
 
+std::string lights_of(const Pipeline& pipeline) {
+  return pipeline.light_program.used() ? "light program " + pipeline.light_program.file : "preset " + pipeline.preset;
+}
+
 std::string validation_text(const Validation& v) {
   std::string lines = verdict_row("scene", v.verdict.scene);
   lines +=
-      verdict_row("pipeline", v.pipeline.preset + ", " + std::to_string(v.pipeline.width) + 'x' +
+      verdict_row("pipeline", lights_of(v.pipeline) + ", " + std::to_string(v.pipeline.width) + 'x' +
                                   std::to_string(v.pipeline.height) + ", " + std::string(info(v.pipeline.target).name));
   lines += verdict_row("driver", v.verdict.driver) + verdict_row("profile", profile_line(v.profile));
   for (const std::string& note : v.notes) lines += verdict_row("note", note);
@@ -281,6 +295,7 @@ std::string validation_text(const Validation& v) {
     if (!value.empty()) lines += verdict_row(name, value);
   };
   add_row("rounding", rounding_line(v.verdict));
+  add_row("power", power_line(v.verdict));
   add_row("hidden", blind_spot_line(v));
   constexpr size_t kMostHidden = 12;
   const std::vector<std::string> hidden = hidden_by_materials(v.verdict);

@@ -117,14 +117,14 @@ std::string inference_part(const oracle::Verdict& v) {
 /// The evidence, the rounding that stages follow, and what the target hides: a paragraph each.
 std::string remarks(const Validation& v) {
   std::string html;
-  for (const std::string& line : {v.verdict.evidence_line(), rounding_line(v.verdict), blind_spot_line(v)})
+  for (const std::string& line : {v.verdict.evidence_line(), rounding_line(v.verdict), power_line(v.verdict), blind_spot_line(v)})
     if (!line.empty()) html += "<p>" + escaped(line) + ".</p>\n";
   return html;
 }
 
 /// What was judged, in a line.
 std::string subject(const Validation& v) {
-  return "<p class=quiet>" + escaped(v.verdict.driver) + "; preset " + escaped(v.pipeline.preset) + ", " +
+  return "<p class=quiet>" + escaped(v.verdict.driver) + "; " + escaped(lights_of(v.pipeline)) + ", " +
          std::to_string(v.pipeline.width) + " \xc3\x97 " + std::to_string(v.pipeline.height) + " pixels, " +
          std::string(info(v.pipeline.target).name) + "</p>\n";
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <string_view>
 
@@ -11,6 +10,7 @@
 #include "oracle/matrices.h"
 #include "programs/front/light_program.h"
 #include "scenes/pipeline/light_mesh.h"
+#include "scenes/pipeline/program_inputs.h"
 
 namespace trueshade::oracle {
 
@@ -89,25 +89,6 @@ Interval of_light(std::string_view name, const Light& light, uint32_t index) {
   return Interval::of(0);  // right, up, user: nothing gives them
 }
 
-std::optional<double> parameter(std::string_view name, const LightProgram& program) {
-  const std::string_view field = field_of(name);
-  for (const ProgramParameter& p : program.parameters)
-    if (p.name == field && component_of(name) < p.value.size()) return double(p.value[component_of(name)]);
-  return std::nullopt;
-}
-
-programs::Program compiled(const LightProgram& given) {
-  if (given.text.empty())
-    throw Error(ErrorKind::usage, given.file, "the text of this light program is not here", "give it with its name");
-  uint32_t first = 0;
-  if (given.text.size() >= sizeof first) std::memcpy(&first, given.text.data(), sizeof first);
-  constexpr uint32_t kSpirv = 0x07230203;
-  if (first != kSpirv) return programs::program_from_glsl(given.file, given.text);
-  std::vector<uint32_t> words((given.text.size() + 3) / 4);
-  std::memcpy(words.data(), given.text.data(), given.text.size());
-  return programs::program_from_spirv(given.file, std::move(words));
-}
-
 /// What lights add up to, as shading.cpp has it of its own terms.
 struct ProgramTotal {
   LitRange lit;
@@ -175,8 +156,18 @@ struct ProgramTotal {
 
 }  // namespace
 
+Pipeline with_planes_that_program_reads(const Pipeline& pipeline) {
+  const LightProgram& given = pipeline.light_program;
+  if (!given.used()) return pipeline;
+  std::vector<std::string> inputs;
+  for (const programs::ProgramInput& input : programs::kept_program(given.file, given.text)->inputs)
+    inputs.push_back(input.name);
+  return with_planes_of(pipeline, program_reads(given.file, inputs));
+}
+
 ProgramBounds::ProgramBounds(const Scene& scene, const Pipeline& pipeline, const Arithmetic& arithmetic)
-    : ProgramBounds(scene, pipeline, arithmetic, compiled(pipeline.light_program)) {}
+    : ProgramBounds(scene, pipeline, arithmetic,
+                    *programs::kept_program(pipeline.light_program.file, pipeline.light_program.text)) {}
 
 ProgramBounds::ProgramBounds(const Scene& scene, const Pipeline& pipeline, const Arithmetic& arithmetic,
                              programs::Program program)
@@ -321,7 +312,7 @@ Interval ProgramBounds::input_of_frame(const std::string& name, const Scene& sce
   const std::string_view field = field_of(name);
   const size_t c = component_of(name);
   if (name.starts_with("parameters.")) {
-    if (const std::optional<double> value = parameter(name, pipeline.light_program)) return Interval::of(*value);
+    if (const std::optional<float> value = parameter_value(name, pipeline.light_program)) return Interval::of(*value);
     throw Error(ErrorKind::usage, program_.name, "nothing gives " + name, "--light-parameter NAME=VALUE");
   }
   const Matrix4 clip_from_world = projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height);

@@ -12,6 +12,9 @@
 
 namespace trueshade::oracle {
 
+/// The pipeline as the judge takes it; of a pipeline without a light program the same. Error as of ProgramBounds.
+Pipeline with_planes_that_program_reads(const Pipeline& pipeline);
+
 /// A light program over the lights of a scene, ready for any surface. Borrows the scene, which must outlive it.
 ///
 /// A sum is what its terms are in any order, unless the source says `precise`. Where a comparison may go either way,

@@ -98,6 +98,7 @@ class LightingJudge {
                 const Tile& tile) const;
   bool fits(const LitRange& lit, const Output& output, int x, int y, Match& m) const;
   void judge_pixel(int x, int y, const Tile& tile, RowTally& row) const;
+  void keep_power(const Output& output, RowTally& row) const;
   void judge_uncovered(int x, int y, RowTally& row) const;
   void judge_layered(int x, int y, RowTally& row) const;
   bool count_is(const LitRange& lit, int x, int y, Match& m) const;
@@ -109,6 +110,7 @@ class LightingJudge {
   const PixelMask& mask_;
   const CapturedSurface surface_;
   const PlaneView color_, count_;
+  const uint32_t sampled_ = std::max(1u, uint32_t(pipeline_.width) * uint32_t(pipeline_.height) / 4096);  // one in
   const bool sees_thresholds_ = converts_as_seen(color_, profile_);
   const LightBounds lights_;
   std::optional<ProgramBounds> program_;  ///< instead of these, where the pipeline has a light program
@@ -206,6 +208,29 @@ bool LightingJudge::fits(const LitRange& lit, const Output& output, int x, int y
   return m.legal;
 }
 
+/// The least part by which light must be more than it is for the pixel to be in no legal set: of the channel that shows
+/// it best. A pixel without light shows nothing.
+void LightingJudge::keep_power(const Output& output, RowTally& row) const {
+  double least = 1;
+  bool is_lit = false;
+  for (int k = 0; k < 3; ++k) {
+    const Range& right = output.color[size_t(k)];
+    if (!(right.value > 0)) continue;
+    is_lit = true;
+    const LegalTexel legal = legal_texel(right, color_.image->format, k, profile_);
+    const auto shows = [&](double part) {
+      const double more = right.value * (1 + part);
+      return !legal.contains(legal_texel({more, more, more}, color_.image->format, k, profile_).nominal);
+    };
+    double part = 0x1p-22;
+    while (part < least && !shows(part)) part *= 2;
+    double low = part / 2;
+    for (int i = 0; i < 5 && part < least; ++i) (shows((low + part) / 2) ? part : low) = (low + part) / 2;
+    least = std::min(least, part);
+  }
+  if (is_lit) row.shown.push_back(float(least));
+}
+
 void LightingJudge::judge_uncovered(int x, int y, RowTally& row) const {
   Match m;
   const uint32_t pixel = pixel_at(x, y);
@@ -269,6 +294,7 @@ void LightingJudge::judge_pixel(int x, int y, const Tile& tile, RowTally& row) c
   const LitRange lit = program_ ? tile.lit_at(x, y) : lights_.at(surface, tile.near);
   const Output as_real = output(lit, {}, surface, tile);
   if (lit.undefined || as_real.undefined) return row.take(x, y, PixelClass::undefined, {}, "");
+  if (pixel_at(x, y) % sampled_ == 0) keep_power(as_real, row);
   if (!lit.branches.empty()) row.may_be_other(pixel_at(x, y), pixel_at(x, y), 0.5);
   Match nominal;
   fits(lit, as_real, x, y, nominal);

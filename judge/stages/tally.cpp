@@ -286,6 +286,12 @@ StageVerdict verdict_of(std::string_view stage, const Profile& profile, int widt
     v.worst.insert(v.worst.end(), row.worst.begin(), row.worst.end());
   }
   keep_worst(v.worst);
+  std::vector<float> shown;
+  for (const RowTally& row : rows) shown.insert(shown.end(), row.shown.begin(), row.shown.end());
+  if (!shown.empty()) {
+    std::nth_element(shown.begin(), shown.begin() + int64_t(shown.size() / 2), shown.end());
+    v.power = double(shown[shown.size() / 2]);
+  }
   return v;
 }
 

@@ -125,6 +125,7 @@ struct RowTally {
   std::vector<TexturedPixel> textured;
   std::vector<GlassDeviation> glass;
   std::vector<float> excess;  ///< of violations by x, as far as the last of them
+  std::vector<float> shown;   ///< of some lit pixels: the part by which light must be off to be a violation there
 
   /// `pixel`: y * width + x, y from the top.
   void may_be_other(uint32_t pixel, uint64_t surface, double chance);

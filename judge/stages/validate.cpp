@@ -6,9 +6,9 @@
 #include <functional>
 
 #include "core/error.h"
+#include "judge/bounds/program_bounds.h"
 #include "judge/stages/transparent_layers.h"
 #include "scenes/pipeline/transparency.h"
-#include "shading/program/program_frame.h"
 
 namespace trueshade::oracle {
 
@@ -168,7 +168,7 @@ std::string Verdict::material_line() const {
 
 Verdict validate_capture(const Scene& scene, const Pipeline& asked, const Capture& capture,
                          const ValidateOptions& options) {
-  Pipeline pipeline = with_planes_of_program(asked);
+  Pipeline pipeline = with_planes_that_program_reads(asked);
   pipeline.gbuffer = surface_planes(pipeline);  // forward strategies are judged from float planes of the same surfaces
   Validation validation(scene, pipeline, capture, options);
   std::vector<Stage> stages = validation.stages();

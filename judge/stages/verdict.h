@@ -95,6 +95,8 @@ struct StageVerdict {
   double worst_error = 0;               ///< float planes: largest |given - value| / bound
   std::vector<double> row_errors;       ///< the same of each row
   std::vector<WorstPixel> worst;        ///< at most 32
+  double power = 0;           ///< of lights: light that is off by this part is a violation at half of the lit pixels,
+                              ///< each by itself; 0 where nothing is lit, 1 where it may be off by more
   std::vector<float> excess;  ///< WorstPixel::excess of each pixel, 0 of legal ones; empty: there is no violation
 
   uint64_t judged() const { return classes.size() - left_out; }

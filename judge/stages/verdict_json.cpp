@@ -45,7 +45,8 @@ std::string stage_json(const StageVerdict& s, const Evidence& evidence, double l
          ",\"height\":" + std::to_string(s.height) + ",\"counts\":" + counts + "},\"left_out\":" + number(s.left_out) +
          ",\"covered\":" + number(s.covered) + ",\"ambiguous\":" + number(s.ambiguous) +
          ",\"predicted_other\":" + number(s.predicted_other) + ",\"stored_values\":" + number(s.stored_values) +
-         ",\"worst_error\":" + number(s.worst_error) + ",\"rounding\":" + json_string(text(evidence.rule)) +
+         ",\"worst_error\":" + number(s.worst_error) + ",\"power\":" + number(s.power) +
+         ",\"rounding\":" + json_string(text(evidence.rule)) +
          ",\"aggregates\":" + array(evidence.tests, test_json) +
          ",\"windows\":" + array(worst_windows(s), window_json) + ",\"worst\":" + array(s.worst, worst_json) + "}";
 }

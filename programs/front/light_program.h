@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -33,5 +34,8 @@ Program program_from_glsl(const std::string& file, const std::string& text, cons
 /// A program from SPIR-V that has the blocks of compiled_light() by name, made by any compiler. Hostile words end in an
 /// Error.
 Program program_from_spirv(const std::string& file, std::vector<uint32_t> words, const ProgramLimits& limits = {});
+
+/// The program of a text, GLSL or SPIR-V, compiled once a process. Error(usage) of an empty text.
+std::shared_ptr<const Program> kept_program(const std::string& file, const std::string& text);
 
 }  // namespace trueshade::programs

@@ -16,6 +16,7 @@ namespace {
 
 Program program_from_glsl(const std::string& file, const std::string&, const ProgramLimits&) { refuse(file); }
 Program program_from_spirv(const std::string& file, std::vector<uint32_t>, const ProgramLimits&) { refuse(file); }
+std::shared_ptr<const Program> kept_program(const std::string& file, const std::string&) { refuse(file); }
 std::string_view light_interface() { return {}; }
 LightOutline light_outline(const std::string& file, const std::string&, const std::string&) { refuse(file); }
 

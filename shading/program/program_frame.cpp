@@ -9,7 +9,6 @@
 #include <string_view>
 
 #include "core/error.h"
-#include "core/sha256.h"
 #include "programs/front/light_program.h"
 #include "raster/view.h"
 #include "scenes/light_cone.h"
@@ -20,17 +19,6 @@ namespace {
 using programs::Executable;
 using programs::ProgramInput;
 using programs::Rate;
-
-constexpr uint32_t kSpirvMagic = 0x07230203;
-
-programs::Program compiled(const LightProgram& program) {
-  uint32_t first = 0;
-  if (program.text.size() >= sizeof first) std::memcpy(&first, program.text.data(), sizeof first);
-  if (first != kSpirvMagic) return programs::program_from_glsl(program.file, program.text);
-  std::vector<uint32_t> words((program.text.size() + 3) / 4);
-  std::memcpy(words.data(), program.text.data(), program.text.size());
-  return programs::program_from_spirv(program.file, std::move(words));
-}
 
 bool starts(std::string_view name, std::string_view field) { return name.starts_with(field); }
 
@@ -111,15 +99,13 @@ std::shared_ptr<const Executable> executable_of(const LightProgram& program) {
   static std::mutex mutex;
   static std::map<std::string, std::shared_ptr<const Executable>> kept;
   constexpr size_t kMost = 64;  // programs of a process; then all are compiled anew
-  if (program.text.empty())
-    throw Error(ErrorKind::usage, program.file, "the text of this light program is not here", "give it with its name");
-  const std::string key = program.file + '\n' + sha256_of(program.text);
+  const std::shared_ptr<const programs::Program> made = programs::kept_program(program.file, program.text);
+  const std::string key = made->name + '\n' + made->sha256;
   const std::lock_guard lock(mutex);
   if (const auto there = kept.find(key); there != kept.end()) return there->second;
   if (kept.size() >= kMost) kept.clear();
-  programs::Program made = compiled(program);
-  const auto wanted = made.defines_reaches ? programs::Wanted::light_and_reaches : programs::Wanted::light;
-  return kept[key] = std::make_shared<Executable>(programs::executable_of(std::move(made), wanted));
+  const auto wanted = made->defines_reaches ? programs::Wanted::light_and_reaches : programs::Wanted::light;
+  return kept[key] = std::make_shared<Executable>(programs::executable_of(*made, wanted));
 }
 
 Pipeline with_planes_of_program(const Pipeline& pipeline) {

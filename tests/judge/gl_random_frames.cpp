@@ -65,3 +65,11 @@ TEST_CASE("Of two thousand frames of llvmpipe's under states drawn at random non
   check_llvmpipe(FrameTheme::any, long_first(1000), long_count(2000));
   for (const FrameTheme theme : kThemes) check_llvmpipe(theme, long_first(1000), long_count(2000) / 10);
 }
+
+TEST_CASE("llvmpipe is not convicted where it is lit by a light program at random") {
+  check_llvmpipe(FrameTheme::light_program, 1, 16);
+}
+
+TEST_CASE("Of five hundred frames of llvmpipe's that are lit by a light program at random none is convicted", "[long]") {
+  check_llvmpipe(FrameTheme::light_program, long_first(1000), long_count(500));
+}

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "scenes/pipeline/presets.h"
 #include "scenes/shapes.h"
+#include "tests/judge/random_light_text.h"
 #include "tests/judge/random_scene.h"
 
 namespace trueshade::testing {
@@ -208,6 +209,14 @@ void take_glass_in_halves(RandomFrame& frame, Pcg32& random) {
   frame.scene.materials[random.below(3)].transparent = true;
 }
 
+void take_program(Pipeline& p, Pcg32& random) {
+  const std::string text = random_light_text(random);
+  p.light_program = {"random.glsl", text, {}, {}};
+  p.strategy = one_in(random, 2) ? Strategy::deferred_loop : Strategy::forward_loop;
+  if (p.transparency.mode == TransparencyMode::after_lights || p.strategy == Strategy::forward_loop)
+    p.transparency.mode = TransparencyMode::none;
+}
+
 /// Mesa's clip stage hands on NaN where it cuts some triangles of noperspective attributes, and our own frames follow
 /// another rule there: those are left out.
 void keep_uncut(RandomFrame& frame) {
@@ -231,6 +240,7 @@ RandomFrame random_frame(uint64_t seed, FrameTheme theme) {
   if (theme == FrameTheme::clamped_depths) take_to_an_end(frame.pipeline, random);
   if (theme == FrameTheme::sloped_depths) slope_depths(frame, random);
   if (theme == FrameTheme::glass_in_halves) take_glass_in_halves(frame, random);
+  if (theme == FrameTheme::light_program) take_program(frame.pipeline, random);
   if (is_forward(frame.pipeline.strategy) && frame.pipeline.transparency.mode == TransparencyMode::into_albedo)
     frame.pipeline.transparency.mode = TransparencyMode::after_lights;
   keep_uncut(frame);

@@ -16,7 +16,8 @@ enum class FrameTheme : uint8_t {
   any,
   clamped_depths,  ///< forward-multipass, and a polygon offset that takes depths to an end of their range
   sloped_depths,   ///< a polygon offset by the slope of thin triangles on silhouettes
-  glass_in_halves  ///< glass that is blended into an albedo of rgb16f
+  glass_in_halves,  ///< glass that is blended into an albedo of rgb16f
+  light_program     ///< lit by a light program at random
 };
 
 /// random_scene() with more materials, maps, masks, glass, surfaces that coincide and surfaces behind the eye, at 32x24

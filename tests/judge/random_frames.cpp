@@ -67,11 +67,13 @@ class FrameTrial {
   void tell() const {
     int refused = 0;
     for (const auto& [why, count] : refused_) refused += count;
-    std::printf("random frames by %s, theme %d: %d, not drawn %d, alarms %d\n", asked_.drawer.c_str(),
-                int(asked_.theme), asked_.count, refused, alarms_);
+    std::printf("random frames by %s, theme %d: %d, not drawn %d, alarms %d; %.2f %% of the lit pixels undefined\n",
+                asked_.drawer.c_str(), int(asked_.theme), asked_.count, refused, alarms_,
+                100 * double(undefined_) / double(std::max<uint64_t>(1, covered_)));
     for (const auto& [why, count] : refused_) std::printf("  not drawn %d: %s\n", count, why.c_str());
     std::fflush(stdout);
     CHECK(alarms_ == 0);
+    if (asked_.theme == FrameTheme::light_program) CHECK(undefined_ * 10 <= covered_);
     CHECK(refused <= int(asked_.most_refused * asked_.count));
   }
 
@@ -88,6 +90,8 @@ class FrameTrial {
 
   void hold(uint64_t seed, const RandomFrame& frame, const DrawnFrame& drawn, const ValidateOptions& options) {
     const Verdict v = validate_capture(frame.scene, frame.pipeline, drawn.capture, options);
+    for (const StageVerdict& stage : v.stages)
+      if (stage.stage == "lighting") covered_ += stage.covered, undefined_ += stage.count(PixelClass::undefined);
     if (v.violations() == 0 && !v.convicted()) return;
     alarm(seed, frame, options.steps || options.objects ? "draw by draw" : "as a file", reason_of(v));
   }
@@ -103,6 +107,7 @@ class FrameTrial {
   Profile profile_;
   std::map<std::string, int> refused_;  ///< by what is in the way
   int alarms_ = 0;
+  uint64_t covered_ = 0, undefined_ = 0;  ///< pixels of the stage of the lights
 };
 
 }  // namespace

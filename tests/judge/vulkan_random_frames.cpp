@@ -173,3 +173,17 @@ TEST_CASE("Of two hundred frames of SwiftShader's under states drawn at random n
   check_swiftshader(FrameTheme::any, long_first(1), long_count(200));
   for (const FrameTheme theme : kThemes) check_swiftshader(theme, long_first(1), long_count(200) / 10);
 }
+
+TEST_CASE("A Vulkan device is not convicted where it is lit by a light program at random") {
+  check_software(FrameTheme::light_program, 1, 16);
+}
+
+TEST_CASE("Of five hundred frames of a Vulkan device that are lit by a light program at random none is convicted",
+          "[long]") {
+  check_software(FrameTheme::light_program, long_first(1000), long_count(500));
+}
+
+TEST_CASE("Of two hundred frames of SwiftShader's that are lit by a light program at random none is convicted",
+          "[long]") {
+  check_swiftshader(FrameTheme::light_program, long_first(1000), long_count(200));
+}
