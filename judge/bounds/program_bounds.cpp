@@ -21,7 +21,8 @@ using programs::Op;
 using programs::ProgramNode;
 using programs::Rate;
 
-constexpr size_t kMostTerms = 16;  // of a sum whose order is taken to be any
+constexpr size_t kMostTerms = 64;  // of a sum whose order is taken to be any, and how deep they may lie
+constexpr size_t kMostLaneSlots = 16384;  // values of a surface or a pair, which are 1.5 KiB each in lanes
 
 /// The value of a float that was made of the number by one rounding, maybe of another formula.
 Interval once_rounded(double x) { return {x, x - 0x1p-23 * std::fabs(x), x + 0x1p-23 * std::fabs(x), false}; }
@@ -183,13 +184,13 @@ ProgramBounds::ProgramBounds(const Scene& scene, const Pipeline& pipeline, const
 }
 
 /// The terms of a sum: through sums that the compiler may take apart.
-void ProgramBounds::gather(NodeId id, bool negated, std::vector<std::pair<NodeId, bool>>& out) const {
+void ProgramBounds::gather(NodeId id, bool negated, std::vector<SumTerm>& out, size_t depth) const {
   const ProgramNode& node = program_.nodes[id];
   const bool is_sum = node.op == Op::f_add || node.op == Op::f_sub;
   const size_t before = out.size();
-  if ((is_sum || node.op == Op::f_neg) && !node.precise && before < kMostTerms) {
-    gather(node.operand[0], node.op == Op::f_neg ? !negated : negated, out);
-    if (is_sum) gather(node.operand[1], node.op == Op::f_sub ? !negated : negated, out);
+  if ((is_sum || node.op == Op::f_neg) && !node.precise && before < kMostTerms && depth < kMostTerms) {
+    gather(node.operand[0], node.op == Op::f_neg ? !negated : negated, out, depth + 1);
+    if (is_sum) gather(node.operand[1], node.op == Op::f_sub ? !negated : negated, out, depth + 1);
     if (out.size() <= kMostTerms) return;
     out.resize(before);
   }
@@ -204,7 +205,7 @@ bool ProgramBounds::is_unit_component(const ProgramNode& product) const {
     if (program_.nodes[root].op == Op::select) root = program_.nodes[root].operand[1];
     const ProgramNode& inverse = program_.nodes[root];
     if (inverse.op != Op::f_inverse_sqrt) continue;
-    std::vector<std::pair<NodeId, bool>> terms;
+    std::vector<SumTerm> terms;
     gather(inverse.operand[0], false, terms);
     for (const auto& [id, negated] : terms) {
       const ProgramNode& square = program_.nodes[id];
@@ -255,7 +256,7 @@ void ProgramBounds::make_steps() {
     const auto rate = size_t(program_.nodes[id].rate);
     place_[id] = {uint8_t(rate), slots_[rate]++};
   }
-  std::vector<std::vector<std::pair<NodeId, bool>>> terms(count);
+  std::vector<std::vector<SumTerm>> terms(count);
   // 1: light() needs it; 2: reaches() alone; 3: start() or finish().
   std::vector<uint8_t> needed(count, 0);
   const auto mark = [&](int first, int end, uint8_t by) {
@@ -564,6 +565,10 @@ void ProgramBounds::add(uint32_t light, size_t count, Block& block, std::span<Bl
 
 void ProgramBounds::at(std::span<const ShadedSurface* const> surfaces, std::span<const uint32_t> lights, Block& block,
                        std::span<LitRange> lit) const {
+  if (slots_[size_t(Rate::surface)] + slots_[size_t(Rate::pair)] > kMostLaneSlots) {
+    for (size_t i = 0; i < surfaces.size(); ++i) lit[i] = at(*surfaces[i], lights, block.registers);
+    return;
+  }
   block.left.fill(0);
   look_at(surfaces, block);
   std::array<BlockSum, kIntervalLanes> sums{};

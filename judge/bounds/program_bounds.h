@@ -83,7 +83,8 @@ class ProgramBounds {
   using Outcome = std::array<Interval, 3>;
 
   void make_steps();
-  void gather(programs::NodeId id, bool negated, std::vector<std::pair<programs::NodeId, bool>>& out) const;
+  using SumTerm = std::pair<programs::NodeId, bool>;  ///< true: negated
+  void gather(programs::NodeId id, bool negated, std::vector<SumTerm>& out, size_t depth = 0) const;
   void find_patterns(programs::NodeId id, Step& step);
   bool is_unit_component(const programs::ProgramNode& product) const;
   Interval input_of_frame(const std::string& name, const Scene& scene, const Pipeline& pipeline) const;

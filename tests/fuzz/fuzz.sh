@@ -20,7 +20,7 @@ for target in "${targets[@]}"; do
   [[ -e tests/fuzz/$target.dict ]] && dictionary=("-dict=tests/fuzz/$target.dict")
   log=build/fuzz/$target.log
   ASAN_OPTIONS=quarantine_size_mb=16 TRUESHADE_FUZZ_TARGET=$target build/fuzz/tests/fuzz/fuzzer -max_total_time="$seconds" -timeout=1 -rss_limit_mb=512 \
-    -max_len=16384 -print_final_stats=1 -artifact_prefix="build/fuzz/findings/$target-" "${dictionary[@]}" \
+    -max_len=32768 -print_final_stats=1 -artifact_prefix="build/fuzz/findings/$target-" "${dictionary[@]}" \
     "build/fuzz/found/$target" "tests/fuzz/corpus/$target" >"$log" 2>&1 || status=1
   executions=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
   printf '%-14s %10s inputs, %s\n' "$target" "${executions:-?}" "$(grep -aoE 'cov: [0-9]+ ft: [0-9]+' "$log" | tail -n 1)"

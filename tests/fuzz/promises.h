@@ -45,6 +45,9 @@ void run_tiff(Bytes bytes);
 void run_hdr(Bytes bytes);
 void run_capture_map(Bytes bytes);
 
+/// Of light programs.
+void run_light_spv(Bytes bytes);
+
 /// Targets of OBJ and MTL files.
 void run_obj(Bytes bytes);
 void run_mtl(Bytes bytes);

@@ -193,7 +193,8 @@ constexpr Target kTargets[] = {{"gltf", run_gltf},
                                {"dds", run_dds},
                                {"tiff", run_tiff},
                                {"hdr", run_hdr},
-                               {"capture_map", run_capture_map}};
+                               {"capture_map", run_capture_map},
+                               {"light_spv", run_light_spv}};
 
 }  // namespace
 
