@@ -249,6 +249,7 @@ ShadedSurface shaded_surface(const SurfaceValues& values, const GBufferState& g)
     s.specular[k] = bounded(values.specular(base, int(k)));
     s.emission[k] = bounded(values.emission(base, int(k)));
   }
+  for (size_t k = 0; k < 2; ++k) s.uv[k] = bounded(values.attribute(kUv + k, g.uv.interpolation));
   s.albedo[3] = bounded(values.base_color(3, g.albedo.interpolation));
   const Range shininess = values.shininess();
   s.shininess = shininess.value;

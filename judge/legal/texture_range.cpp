@@ -102,12 +102,12 @@ TextureSample texture_sample(const Piece& piece, const std::array<std::array<dou
 
 namespace {
 
-struct Interval {
+struct Stretch {
   long double low, high;
 };
 
 /// Levels of detail that a lookup may have, biased and clamped.
-Interval lod_range(const Texture& texture, const Sampler& s, const TextureSample& at, const Sampling& rules) {
+Stretch lod_range(const Texture& texture, const Sampler& s, const TextureSample& at, const Sampling& rules) {
   LodRange lod;
   if (rules.any_scale) {
     lod = {legal_lod(texture, at.least).low, legal_lod(texture, at.most).high};
@@ -123,7 +123,7 @@ Interval lod_range(const Texture& texture, const Sampler& s, const TextureSample
 }
 
 /// What the sampler's filters make of the texels, in real arithmetic, and how many linear steps at most that took.
-TexelHull filtered_range(const TexelSource& texels, const Interval& lod, const TextureSample& at,
+TexelHull filtered_range(const TexelSource& texels, const Stretch& lod, const TextureSample& at,
                          const Profile& profile, int& steps) {
   const Sampler& s = texels.sampler;
   // OpenGL lets the two filters meet at 0.5 where the one is linear and the other nearest with levels (8.15).
@@ -193,7 +193,7 @@ std::array<Range, 4> texel_range(const Texture& texture, const Sampler& s, const
                                  const Profile& profile, LevelHulls* hulls) {
   const Sampling& rules = profile.sampling;
   if (rules.anisotropy > 1) return anisotropic_range(texture, s, at, profile, hulls);
-  const Interval lod = lod_range(texture, s, at, rules);
+  const Stretch lod = lod_range(texture, s, at, rules);
   const bool srgb = texture.format == TextureFormat::srgb8_a8;
   int steps = 0;
   TexelHull r;

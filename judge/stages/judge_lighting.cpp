@@ -100,7 +100,7 @@ class LightingJudge {
   void judge_pixel(int x, int y, const Tile& tile, RowTally& row) const;
   void keep_power(const Output& output, RowTally& row) const;
   void judge_uncovered(int x, int y, RowTally& row) const;
-  void judge_layered(int x, int y, RowTally& row) const;
+  void judge_layered(int x, int y, const Tile& tile, RowTally& row) const;
   bool count_is(const LitRange& lit, int x, int y, Match& m) const;
 
   const Scene& scene_;
@@ -125,7 +125,7 @@ bool LightingJudge::count_is(const LitRange& lit, int x, int y, Match& m) const 
 }
 
 /// From what the lights may have left: nominally, and over all branches.
-void LightingJudge::judge_layered(int x, int y, RowTally& row) const {
+void LightingJudge::judge_layered(int x, int y, const Tile& tile, RowTally& row) const {
   const bool covered = surface_.covered(x, y);
   Match counted;
   CarriedTexel at;
@@ -139,22 +139,19 @@ void LightingJudge::judge_layered(int x, int y, RowTally& row) const {
   if (covered) {
     ++row.covered;
     const ShadedSurface surface = surface_.at(x, y);
-    const LitRange lit = lights_.at(surface);
-    if (lit.undefined) return row.take(x, y, PixelClass::undefined, {}, "");
+    const LitRange lit = program_ ? tile.lit_at(x, y) : lights_.at(surface);
+    LitRange hull = lit;
+    for (const OtherBranch& b : lit.branches)
+      for (size_t k = 0; k < 3; ++k) hull.color[k].error += std::fabs(b.change[k]);
+    const Output as_real = output(lit, {}, surface, tile), any = output(hull, {}, surface, tile);
+    if (lit.undefined || as_real.undefined || any.undefined) return row.take(x, y, PixelClass::undefined, {}, "");
     count_is(lit, x, y, counted);
     branches = !lit.branches.empty();
-    for (size_t k = 0; k < 3; ++k) {
-      Bounded any = lit.color[k];
-      for (const OtherBranch& b : lit.branches) any.error += std::fabs(b.change[k]);
-      const auto texel = [&](const Bounded& c) {
-        return legal_texel(output_range(pipeline_.light_model, c), color_.image->format, int(k), profile_);
-      };
-      at.nominal[k] = texel(lit.color[k]), at.all[k] = texel(any);
-      from[k] = output_range(pipeline_.light_model, lit.color[k]).value;
+    for (size_t k = 0; k < 4; ++k) {
+      at.nominal[k] = legal_texel(as_real.color[k], color_.image->format, int(k), profile_);
+      at.all[k] = legal_texel(any.color[k], color_.image->format, int(k), profile_);
+      from[k] = as_real.color[k].value;
     }
-    const Range alpha = output_range(pipeline_.light_model, surface_.alpha(surface));
-    at.nominal[3] = at.all[3] = legal_texel(alpha, color_.image->format, 3, profile_);
-    from[3] = alpha.value;
   }
   const TransparentPixel pixel = layers_->at(x, y);
   may_have_other_layers(pixel, pixel_at(x, y), row);
@@ -287,7 +284,7 @@ void LightingJudge::light_up(Tile& tile, const std::array<LightBounds::Span, 3>&
 }
 
 void LightingJudge::judge_pixel(int x, int y, const Tile& tile, RowTally& row) const {
-  if (layers_ && layers_->any(x, y)) return judge_layered(x, y, row);
+  if (layers_ && layers_->any(x, y)) return judge_layered(x, y, tile, row);
   if (!surface_.covered(x, y)) return judge_uncovered(x, y, row);
   ++row.covered;
   const ShadedSurface& surface = tile.at(x, y);

@@ -59,6 +59,12 @@ TransparentLayers::TransparentLayers(const Scene& scene, const Pipeline& pipelin
   find_fronts(capture, rows);
   fragments_ = find_transparent(projector_, front_high_, rows);
   if (pipeline.transparency.mode != TransparencyMode::after_lights) return;
+  if (pipeline.light_program.used()) {
+    Pipeline of_glass = pipeline;
+    of_glass.light_model.alpha_from_albedo = true;
+    program_.emplace(scene, of_glass, profile_.arithmetic);
+    return;
+  }
   const auto axis = view_axis(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height));
   lights_.emplace(scene, model_, axis, profile_.arithmetic, profile_.exact_planes, pipeline_.light_volumes);
 }
@@ -113,18 +119,41 @@ bool TransparentLayers::test_depth(const SurfaceValues& values, const Front& fro
   return true;
 }
 
-void TransparentLayers::shade(const SurfaceValues& values, TransparentLayer& layer) const {
+/// All that the program may make of the fragment, whichever way its comparisons go, is one set.
+void TransparentLayers::shade_by_program(ShadedSurface surface, TransparentLayer& layer) const {
+  ProgramBounds::Registers registers;
+  std::vector<uint32_t> lights;
+  std::array<LightBounds::Span, 3> box;
+  for (size_t k = 0; k < 3; ++k) box[k] = {surface.position[k].low(), surface.position[k].high()};
+  program_->take_near(box, lights);
+  LitRange lit = program_->at(surface, lights, registers);
+  layer.either_way = !lit.branches.empty();
+  const ProgramBounds::Finished nominal = program_->finished(surface, lit.color, registers);
+  for (const OtherBranch& branch : lit.branches)
+    for (size_t k = 0; k < 3; ++k) lit.color[k].error += std::fabs(branch.change[k]);
+  const ProgramBounds::Finished all = program_->finished(surface, lit.color, registers);
+  for (size_t k = 0; k < 4; ++k)
+    layer.nominal[k] = range_of(nominal.color[k]), layer.other[k] = range_of(all.color[k]);
+  layer.undefined = layer.undefined || lit.undefined || nominal.undefined || all.undefined ||
+                    !are_numbers(layer.nominal) || !are_numbers(layer.other);
+}
+
+void TransparentLayers::shade(const SurfaceValues& values, const PossibleSurface& drawn, int x, int y,
+                              TransparentLayer& layer) const {
   const Interpolation how = pipeline_.gbuffer.albedo.interpolation;
   layer.looked_up = values.looked_up();
   layer.undefined = !values.bounded();
-  if (!lights_) {
+  if (!lights_ && !program_) {
     for (int k = 0; k < 4; ++k) {
       const Range base = values.base_color(k, how);
       layer.nominal[size_t(k)] = k < 3 ? values.albedo(base) : base;
     }
     return;
   }
-  const ShadedSurface surface = shaded_surface(values, pipeline_.gbuffer);
+  ShadedSurface surface = shaded_surface(values, pipeline_.gbuffer);
+  surface.object = drawn.instance + 1, surface.pixel = {x, y};
+  surface.material = projector_.scene().instances[drawn.instance].material + 1;
+  if (program_) return shade_by_program(surface, layer);
   const LitRange lit = lights_->at(surface);
   layer.undefined = layer.undefined || lit.undefined;
   layer.either_way = !lit.branches.empty();
@@ -171,7 +200,7 @@ TransparentPixel TransparentLayers::at(int x, int y_top, uint32_t first, uint32_
     if (patch >= 0 && (!passes || layer.patch < 0)) out.turns[size_t(patch)] = kOpenPatch;
     if (patch >= 0 && out.turns[size_t(patch)] == kOpenPatch) layer.patch = -1;
     if (!passes) continue;
-    shade(values, layer);
+    shade(values, c, x, y, layer);
     out.layers.push_back(layer);
   }
   return out;

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "judge/bounds/program_bounds.h"
 #include "judge/bounds/shading.h"
 #include "judge/legal/blend_range.h"
 #include "judge/legal/possible_surfaces.h"
@@ -91,7 +92,8 @@ class TransparentLayers {
  private:
   struct Front;
   bool test_depth(const SurfaceValues& values, const Front& front, TransparentLayer& layer) const;
-  void shade(const SurfaceValues& values, TransparentLayer& layer) const;
+  void shade(const SurfaceValues& values, const PossibleSurface& surface, int x, int y, TransparentLayer& layer) const;
+  void shade_by_program(ShadedSurface surface, TransparentLayer& layer) const;
   void find_fronts(const Capture& capture, const JudgedRows& rows);
   void chain(const TransparentPixel& pixel, const Texel& from, unsigned drawn, bool other,
              std::vector<LayeredTexel>& out) const;
@@ -105,6 +107,7 @@ class TransparentLayers {
   std::vector<double> front_low_, front_high_;  ///< keys of the opaque depth, row 0 the bottom row
   PossibleSurfaces fragments_;
   std::optional<LightBounds> lights_;
+  std::optional<ProgramBounds> program_;  ///< instead of these
 };
 
 /// The scene with its transparent surfaces gone, but not their places among the instances.

@@ -33,7 +33,6 @@ class Validation {
       add_surfaces();
     const bool layers =
         draws_transparent(scene_, pipeline_) && pipeline_.transparency.mode == TransparencyMode::after_lights;
-    if (layers) require_no_light_program(pipeline_, "the judgement of transparent surfaces");
     begin("the lights");
     if (capture_.color.width > 0) {
       if (layers && options_.objects)

@@ -213,8 +213,6 @@ void take_program(Pipeline& p, Pcg32& random) {
   const std::string text = random_light_text(random);
   p.light_program = {"random.glsl", text, {}, {}};
   p.strategy = one_in(random, 2) ? Strategy::deferred_loop : Strategy::forward_loop;
-  if (p.transparency.mode == TransparencyMode::after_lights || p.strategy == Strategy::forward_loop)
-    p.transparency.mode = TransparencyMode::none;
 }
 
 /// Mesa's clip stage hands on NaN where it cuts some triangles of noperspective attributes, and our own frames follow
