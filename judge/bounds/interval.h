@@ -16,6 +16,10 @@ struct Interval {
   bool maybe_nan = false;
 
   static Interval of(double x) { return {x, x, x, std::isnan(x)}; }
+  /// A float that was made of the number by one rounding, maybe of another formula.
+  static Interval rounded_once(double x) {
+    return {x, x - 0x1p-23 * std::fabs(x), x + 0x1p-23 * std::fabs(x), std::isnan(x)};
+  }
   static Interval anything() { return {0, -HUGE_VAL, HUGE_VAL, true}; }
   bool known() const { return low == high && !maybe_nan; }
   bool is_true() const { return low > 0 && !maybe_nan; }

@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "core/error.h"
-#include "oracle/matrices.h"
 #include "programs/front/light_program.h"
 #include "scenes/pipeline/light_mesh.h"
 #include "scenes/pipeline/program_inputs.h"
@@ -24,70 +23,13 @@ using programs::Rate;
 constexpr size_t kMostTerms = 64;  // of a sum whose order is taken to be any, and how deep they may lie
 constexpr size_t kMostLaneSlots = 16384;  // values of a surface or a pair, which are 1.5 KiB each in lanes
 
-/// The value of a float that was made of the number by one rounding, maybe of another formula.
-Interval once_rounded(double x) { return {x, x - 0x1p-23 * std::fabs(x), x + 0x1p-23 * std::fabs(x), false}; }
-
 /// A constant of the source. A compiler may have made it of others, in double or in floats: a part in 2^23, unless it
 /// has so few digits that it was written down.
 Interval constant_of(const ProgramNode& node) {
   if (node.type != programs::Type::f32)
     return Interval::of(node.type == programs::Type::i32 ? double(int32_t(node.bits)) : double(node.bits));
   const auto x = double(std::bit_cast<float>(node.bits));
-  return (node.bits & 0xFFF) == 0 || !std::isfinite(x) ? Interval::of(x) : once_rounded(x);
-}
-
-/// "surface.position.x": the part between the dots, and 0 to 3 for x to w.
-std::string_view field_of(std::string_view name) {
-  const std::string_view rest = name.substr(name.find('.') + 1);
-  return rest.substr(0, rest.find_first_of(".["));
-}
-size_t component_of(std::string_view name) {
-  const size_t at = std::string_view("xyzw").find(name.back());
-  return at == std::string_view::npos || name[name.size() - 2] != '.' ? 0 : at;
-}
-
-Interval of_surface(std::string_view name, const ShadedSurface& s) {
-  const std::string_view field = field_of(name);
-  const size_t c = component_of(name);
-  if (field == "position") return interval_of(s.position[c]);
-  if (field == "normal") return interval_of(s.normal[c]);
-  if (field == "albedo") return interval_of(s.albedo[c]);
-  if (field == "specular") return interval_of(s.specular[c]);
-  if (field == "shininess") return interval_of({s.shininess, s.shininess_error});
-  if (field == "metallic") return interval_of(s.specular[0]);
-  if (field == "roughness") return interval_of(s.specular[1]);
-  if (field == "occlusion") return interval_of(s.ambient_share);
-  if (field == "emission") return interval_of(s.emission[c]);
-  if (field == "uv") return interval_of(s.uv[c]);
-  if (field == "object") return Interval::of(s.object);
-  if (field == "material") return Interval::of(s.material);
-  if (field == "pixel_x" || field == "pixel_y") return Interval::of(s.pixel[field == "pixel_x" ? 0 : 1]);
-  throw Error(ErrorKind::bad_input, std::string(name), "is a field that no plane of a capture holds", "another field");
-}
-
-/// docs/scenes.md, and docs/arithmetic.md section 8 for the numbers of cones.
-Interval of_light(std::string_view name, const Light& light, uint32_t index) {
-  const std::string_view field = field_of(name);
-  const int c = int(component_of(name));
-  const double cone = double(light.cone_rad), outer = cone + double(light.penumbra_rad);
-  const double width = 1 / std::max(0.001, std::cos(cone) - std::cos(outer));
-  if (field == "type") return Interval::of(double(light.type));
-  if (field == "index") return Interval::of(index);
-  if (field == "position") return Interval::of(double(light.position[c]));
-  if (field == "range") return Interval::of(double(light.range));
-  if (field == "direction") return Interval::of(double(light.direction[c]));
-  if (field == "color") return Interval::of(double(light.color[c]));
-  if (field == "attenuation") return Interval::of(double(light.attenuation[c]));
-  if (field == "ambient") return Interval::of(double(light.ambient[c]));
-  if (field == "cone") return Interval::of(cone);
-  if (field == "penumbra") return Interval::of(double(light.penumbra_rad));
-  if (field == "cos_inner") return once_rounded(std::cos(cone));
-  if (field == "cos_outer") return once_rounded(std::cos(outer));
-  if (field == "cone_scale") return once_rounded(width);
-  if (field == "cone_offset") return once_rounded(-std::cos(outer) * width);
-  if (field == "spot_exponent") return Interval::of(double(light.spot_exponent));
-  if (field == "shadow" || field == "cookie") return Interval::of(-1);
-  return Interval::of(0);  // right, up, user: nothing gives them
+  return (node.bits & 0xFFF) == 0 || !std::isfinite(x) ? Interval::of(x) : Interval::rounded_once(x);
 }
 
 /// What lights add up to, as shading.cpp has it of its own terms.
@@ -291,7 +233,7 @@ void ProgramBounds::make_steps() {
     const ProgramNode& node = program_.nodes[id];
     if (needed[id] == 0 || node.op == Op::constant) continue;
     if (node.op == Op::input) {
-      if (node.rate == Rate::surface) surface_inputs_.emplace_back(place_[id].slot, node.bits);
+      if (node.rate == Rate::surface) surface_inputs_.emplace_back(place_[id].slot, surface_field(program_.inputs[node.bits].name));
       if (node.rate == Rate::sum) sum_inputs_.emplace_back(place_[id].slot, component_of(program_.inputs[node.bits].name));
       continue;
     }
@@ -308,23 +250,6 @@ void ProgramBounds::make_steps() {
   }
 }
 
-/// Of the view and the parameters, which hold for the whole frame.
-Interval ProgramBounds::input_of_frame(const std::string& name, const Scene& scene, const Pipeline& pipeline) const {
-  const std::string_view field = field_of(name);
-  const size_t c = component_of(name);
-  if (name.starts_with("parameters.")) {
-    if (const std::optional<float> value = parameter_value(name, pipeline.light_program)) return Interval::of(*value);
-    throw Error(ErrorKind::usage, program_.name, "nothing gives " + name, "--light-parameter NAME=VALUE");
-  }
-  const Matrix4 clip_from_world = projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height);
-  if (field == "eye") return Interval::of(double(scene.camera.eye[int(c)]));
-  if (field == "axis") return once_rounded(-view_axis(clip_from_world)[c]);
-  if (field == "size") return Interval::of(c == 0 ? pipeline.width : pipeline.height);
-  if (field == "time" || field == "frame") return Interval::of(0);
-  if (field == "view_projection") return once_rounded(clip_from_world[4 * size_t(name[name.find('[') + 1] - '0') + c]);
-  throw Error(ErrorKind::bad_input, program_.name, "nothing gives " + name, "another field");
-}
-
 void ProgramBounds::set_constants(const Scene& scene, const Pipeline& pipeline) {
   constant_values_.resize(std::max<size_t>(1, slots_[size_t(Rate::constant)]));  // operands that are none read the first
   for (NodeId id = 0; id < program_.nodes.size(); ++id) {
@@ -332,7 +257,7 @@ void ProgramBounds::set_constants(const Scene& scene, const Pipeline& pipeline) 
     if (node.rate != Rate::constant) continue;
     if (node.op == Op::constant) constant_values_[place_[id].slot] = constant_of(node);
     if (node.op == Op::input)
-      constant_values_[place_[id].slot] = input_of_frame(program_.inputs[node.bits].name, scene, pipeline);
+      constant_values_[place_[id].slot] = frame_field(program_.inputs[node.bits].name, scene, pipeline);
   }
   std::vector<Interval> terms;
   run(constants_, constant_values_, {constant_values_.data()}, terms);
@@ -345,7 +270,7 @@ void ProgramBounds::set_lights() {
     for (NodeId id = 0; id < program_.nodes.size(); ++id) {
       const ProgramNode& node = program_.nodes[id];
       if (node.op == Op::input && node.rate == Rate::light)
-        values[place_[id].slot] = of_light(program_.inputs[node.bits].name, scene_.lights[i], i);
+        values[place_[id].slot] = light_field(program_.inputs[node.bits].name).at(scene_.lights[i], i);
     }
     run(of_lights_, values, {constant_values_.data(), values.data()}, terms);
   }
@@ -479,7 +404,7 @@ void ProgramBounds::look_at(const ShadedSurface& surface, Registers& r) const {
   for (size_t rate = 0; rate < r.of.size(); ++rate) r.of[rate].resize(slots_[rate]);
   r.decided.resize(slots_[size_t(Rate::pair)], -1);
   std::vector<Interval>& own = r.of[size_t(Rate::surface)];
-  for (const auto& [slot, input] : surface_inputs_) own[slot] = of_surface(program_.inputs[input].name, surface);
+  for (const auto& [slot, field] : surface_inputs_) own[slot] = field.at(surface);
   run(of_surfaces_, own, values_of(r), r.terms);
 }
 
@@ -516,10 +441,9 @@ ProgramLanes ProgramBounds::lanes_of(std::span<const Step> steps, Rate rate, Blo
 /// Lanes behind the last surface repeat the first one.
 void ProgramBounds::look_at(std::span<const ShadedSurface* const> surfaces, Block& block) const {
   for (const Rate rate : {Rate::surface, Rate::pair}) block.of[size_t(rate)].resize(slots_[size_t(rate)] + 1);
-  for (const auto& [slot, input] : surface_inputs_)
+  for (const auto& [slot, field] : surface_inputs_)
     for (size_t i = 0; i < kIntervalLanes; ++i)
-      block.of[size_t(Rate::surface)][slot].set(
-          i, of_surface(program_.inputs[input].name, *surfaces[i < surfaces.size() ? i : 0]));
+      block.of[size_t(Rate::surface)][slot].set(i, field.at(*surfaces[i < surfaces.size() ? i : 0]));
   run_program_lanes(lanes_of(of_surfaces_, Rate::surface, block, 0, block.left.data()));
 }
 

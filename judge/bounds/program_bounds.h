@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "judge/bounds/program_fields.h"
 #include "judge/bounds/program_lanes.h"
 #include "judge/bounds/shading.h"
 
@@ -87,7 +88,6 @@ class ProgramBounds {
   void gather(programs::NodeId id, bool negated, std::vector<SumTerm>& out, size_t depth = 0) const;
   void find_patterns(programs::NodeId id, Step& step);
   bool is_unit_component(const programs::ProgramNode& product) const;
-  Interval input_of_frame(const std::string& name, const Scene& scene, const Pipeline& pipeline) const;
   void set_constants(const Scene& scene, const Pipeline& pipeline);
   void set_lights();
   Values values_of(const Registers& registers) const;
@@ -116,8 +116,8 @@ class ProgramBounds {
   std::vector<Place> place_;  ///< of each node
   std::array<uint32_t, programs::kRateCount> slots_{};
   std::vector<Step> constants_, of_lights_, of_surfaces_, of_pairs_, of_reaches_, of_sums_;
-  std::vector<std::pair<uint32_t, uint32_t>> surface_inputs_;  ///< slot, and number in program_.inputs
-  std::vector<std::pair<uint32_t, size_t>> sum_inputs_;        ///< slot, and channel
+  std::vector<std::pair<uint32_t, SurfaceField>> surface_inputs_;  ///< by slot
+  std::vector<std::pair<uint32_t, size_t>> sum_inputs_;            ///< slot, and channel
   std::vector<ProgramTerm> terms_;
   std::vector<ProgramMix> mixes_;
   std::vector<Interval> constant_values_;

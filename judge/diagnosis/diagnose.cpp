@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <memory>
 
@@ -47,6 +48,32 @@ std::vector<Finding> merged(std::vector<Finding> planes, std::vector<Finding> pi
   add(planes, 0, of_planes), add(picture, 0, of_picture);
   add(planes, of_planes, planes.size()), add(picture, of_picture, picture.size());
   return findings;
+}
+
+/// Of what explains a picture by a line of its light program and by what is done to it or to its lights: what leaves
+/// least first, and of those alike what is not fitted, lines before others.
+std::vector<Finding> best_of(std::vector<Finding> lines, std::vector<Finding> others, size_t most) {
+  std::vector<Finding> all = std::move(lines);
+  const size_t count = all.size();
+  for (Finding& f : others) all.push_back(std::move(f));
+  // Two faults at once stand one behind the other, and what is tied with the one before it too: they move together.
+  std::vector<std::pair<double, std::vector<Finding>>> groups;
+  for (size_t i = 0; i < all.size(); ++i) {
+    const bool goes_on = i != 0 && i != count && (all[i].together || all[i].tied);
+    if (!goes_on) groups.emplace_back();
+    const double cost = 1 - all[i].explained - all[i].located + all[i].contradicted + (all[i].fitted && i < count ? 0.03 : 0);
+    groups.back().first = goes_on && !all[i].together ? groups.back().first : cost;
+    groups.back().second.push_back(std::move(all[i]));
+  }
+  const auto half_percents = [](double cost) { return std::lround(200 * cost); };
+  std::stable_sort(groups.begin(), groups.end(), [&](const auto& a, const auto& b) {
+    return half_percents(a.first) < half_percents(b.first);
+  });
+  std::vector<Finding> out;
+  for (auto& [cost, group] : groups)
+    for (Finding& f : group)
+      if (out.size() < most) out.push_back(std::move(f));
+  return out;
 }
 
 struct Shown {
@@ -124,8 +151,7 @@ std::vector<Finding> diagnose(const Scene& scene, const Pipeline& asked, const P
     planes = plane_findings(scene, pipeline, profile, capture, *surfaces, only.planes);
   std::vector<Finding> findings;
   const bool asks_lit = supposed.empty() || !only.picture.empty() || !only.glass.empty();
-  const bool by_model = !pipeline.light_program.used();  // the faults of pictures are those of LightModel's terms
-  if (by_model && lit != nullptr && asks_lit && (!supposed.empty() || is_suspicious(*lit))) {
+  if (lit != nullptr && asks_lit && (!supposed.empty() || is_suspicious(*lit))) {
     const Shown shown{scene, pipeline, profile, capture, *lit};
     const std::unique_ptr<PictureCase> picture = picture_of(shown, planes);
     if (supposed.empty() || !only.picture.empty()) findings = picture_findings(*picture, only.picture);
@@ -136,8 +162,8 @@ std::vector<Finding> diagnose(const Scene& scene, const Pipeline& asked, const P
       add_glass(glass_findings(scene, pipeline, profile, capture, over != nullptr ? *over : *lit, *picture, only.glass),
                 findings);
   }
-  if (!by_model && lit != nullptr && supposed.empty())
-    findings = program_findings(scene, pipeline, profile, capture, *lit, most);
+  if (pipeline.light_program.used() && lit != nullptr && supposed.empty())
+    findings = best_of(program_findings(scene, pipeline, profile, capture, *lit, most), std::move(findings), most);
   findings = merged(std::move(planes.findings), std::move(findings), most);
   return supposed.empty() ? partial_last(std::move(findings)) : findings;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "judge/diagnosis/plain_program.h"
 #include "judge/diagnosis/predicted_store.h"
 #include "judge/diagnosis/predicted_term.h"
 #include "judge/diagnosis/reread_depth.h"
@@ -84,6 +85,13 @@ LightPass light_pass_of(const Scene& scene, const Pipeline& pipeline) {
   pass.axis = view_axis(clip), pass.drawn_from = eye_of(clip);
   if (is_mesh(pipeline.light_volumes.point) || is_mesh(pipeline.light_volumes.spot))
     pass.shapes = std::make_shared<LightShapes>(pipeline.light_volumes);
+  if (!pipeline.light_program.used()) return pass;
+  pass.program = std::make_shared<PlainProgram>(scene, pipeline);
+  LightModel& model = pass.pipeline.light_model;
+  const bool alpha = model.alpha_from_albedo;
+  model = {};
+  model.alpha_from_albedo = alpha;
+  model.falloff = Falloff::none, model.specular = Specular::none, model.cone = Cone::none;
   return pass;
 }
 
@@ -102,12 +110,19 @@ PredictedPixel predicted_pixel(const LightPass& pass, const PlainSurface& given,
   const PredictedTerms maker(pass, surface);
   const Strategy strategy = pass.pipeline.strategy;
   const bool last = pass.pipeline.light_model.order == TermOrder::albedo_last;
+  if (pass.program != nullptr && surface.unlit) {
+    for (int k = 0; k < 4; ++k) {
+      out.value[size_t(k)] = surface.albedo[size_t(k)];
+      out.stored[size_t(k)] = texels.stored(out.value[size_t(k)], k);
+    }
+    return out;
+  }
   const double alpha = output_of(pass, alpha_of(pass, surface));
   const auto colored = [&](Triple3 v) {
     for (size_t k = 0; k < 3; ++k) v[k] = output_of(pass, last ? v[k] * surface.albedo[k] : v[k]);
     return v;
   };
-  Triple3 sum = start_of(pass, surface);
+  Triple3 sum = pass.program != nullptr ? maker.start() : start_of(pass, surface);
   if (!blends_lights(strategy)) {
     each_light(pass, surface, maker, listed, [&](uint32_t index, const Light& light, int times_drawn) {
       const Triple3 term = maker.term(surface, light);
@@ -116,12 +131,13 @@ PredictedPixel predicted_pixel(const LightPass& pass, const PlainSurface& given,
         if (pass.fault.sum == LightFault::Sum::halves) sum[k] = rounded_to(sum[k], 10, -14, LightFault::Store::nearest);
       }
       if (trace == nullptr) return;
-      const Triple3 now = colored(sum);
+      const Triple3 now = colored(sum);  // what finish() makes of it is not followed light by light
       trace->push_back({index, maker.in_range(surface, light), term != Triple3{}, {now[0], now[1], now[2], alpha}});
     });
     sum = colored(sum);
+    const std::array<double, 4> finished = maker.finished(sum, alpha);
     for (int k = 0; k < 4; ++k) {
-      out.value[size_t(k)] = k < 3 ? sum[size_t(k)] : alpha;
+      out.value[size_t(k)] = finished[size_t(k)];
       out.stored[size_t(k)] = texels.stored(out.value[size_t(k)], k);
     }
     return out;

@@ -21,6 +21,11 @@ struct PlainSurface {
   std::array<double, 3> position{}, normal{}, specular{}, emission{};
   std::array<double, 4> albedo{0, 0, 0, 1};
   double shininess = 0, ambient_share = 1;
+  // What light programs read besides:
+  std::array<double, 2> uv{};
+  uint32_t object = 0, material = 0;
+  std::array<int, 2> pixel{};
+  bool unlit = false;  ///< shows its albedo, whatever the program
 };
 
 /// What a wrong light pass does otherwise than its light model says. The defaults are right.
@@ -49,6 +54,8 @@ struct LightFault {
   bool normal_in_view = false;  ///< rotated by the camera, and then read as if in the world
 };
 
+class PlainProgram;
+
 /// The lights and how they are drawn; a fault may have changed any of it.
 struct LightPass {
   Camera camera;
@@ -61,6 +68,8 @@ struct LightPass {
   /// The eye by which meshes are drawn, whatever the lights take for it; nothing: they are drawn along `view[2]`.
   std::optional<std::array<double, 3>> drawn_from{};
   std::shared_ptr<const LightShapes> shapes{};  ///< null: no light is drawn as a mesh
+  /// The light program, instead of the light model, which then has no terms; null: there is none.
+  std::shared_ptr<const PlainProgram> program{};
 };
 LightPass light_pass_of(const Scene& scene, const Pipeline& pipeline);
 

@@ -127,6 +127,9 @@ PlainSurface PictureCase::surface(int x, int y) const {
   }
   for (size_t k = 0; k < 4; ++k) plain.albedo[k] = s.albedo[k].value;
   plain.shininess = s.shininess, plain.ambient_share = s.ambient_share.value;
+  plain.uv = {s.uv[0].value, s.uv[1].value};
+  plain.object = s.object, plain.material = s.material, plain.pixel = s.pixel;
+  plain.unlit = s.material > 0 && s.material <= scene_.materials.size() && scene_.materials[s.material - 1].unlit;
   if (expected_ != nullptr) heal_surface(x, y, plain);
   return plain;
 }

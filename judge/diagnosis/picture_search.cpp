@@ -7,6 +7,7 @@
 
 #include "core/threads/parallel_for.h"
 #include "judge/diagnosis/fault_estimate.h"
+#include "judge/diagnosis/plain_program.h"
 
 namespace trueshade::oracle {
 
@@ -51,6 +52,22 @@ double parameter_cost(Search search) {
     default:
       return kWholeCost;
   }
+}
+
+/// Whether what a fault changes is in a light program too, and not a term of a light model. Sums before finish() are
+/// not followed light by light.
+bool holds_for_programs(const PictureFault& fault, const LightPass& pass) {
+  constexpr Search kByLight[] = {Search::missing_light, Search::doubled_light, Search::count, Search::count_at_pixel,
+                                 Search::one_light};
+  if (pass.program->defines_finish() && std::find(std::begin(kByLight), std::end(kByLight), fault.search) != std::end(kByLight))
+    return false;
+  LightPass changed = pass;
+  if (fault.light != nullptr) fault.light(changed, fault.starts.empty() ? 2.0 : fault.starts.front());
+  const LightFault &now = changed.fault, &right = pass.fault;
+  return changed.pipeline.light_model == pass.pipeline.light_model && now.distance == right.distance &&
+         now.half == right.half && now.root == right.root && now.cosine == right.cosine &&
+         now.specular == right.specular && now.shininess == right.shininess && now.diffuse == right.diffuse &&
+         now.cone_dropped == right.cone_dropped;
 }
 
 class PictureSearch {
@@ -127,6 +144,7 @@ std::vector<Candidate> PictureSearch::beside(std::span<const NamedFault> faults)
   parallel_for(int(rows.size()), 0, [&](int i) {
     const PictureFault& fault = *rows[size_t(i)];
     if (fault.can != nullptr && !fault.can(base.pass)) return;
+    if (base.pass.program != nullptr && !holds_for_programs(fault, base.pass)) return;
     for (const NamedFault& f : faults)
       if (f.fault == &fault) return;
     for (const FaultParameter& parameter : likely_parameters(picture_, base, fault, picture_.few(), off_few_)) {

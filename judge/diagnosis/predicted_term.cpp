@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "judge/diagnosis/plain_program.h"
 #include "judge/diagnosis/predicted_store.h"
 
 namespace trueshade::oracle {
@@ -46,6 +47,12 @@ PredictedTerms::PredictedTerms(const LightPass& pass, const PlainSurface& surfac
   if (pass.fault.normal_in_view)
     normal_ = {inner(pass.view[0], normal_), inner(pass.view[1], normal_), inner(pass.view[2], normal_)};
   if (pass.fault.normal_turned) normal_ = times(normal_, -1);
+  if (pass.program != nullptr) {
+    PlainSurface seen = surface;
+    seen.normal = normal_;
+    pass.program->look_at(seen, pass.camera, values_);
+    return;
+  }
   if (model_.renormalize) normal_ = unit_of(normal_);
   viewer_ = pass.axis;
   if (model_.viewer == Viewer::local && model_.specular != Specular::none)
@@ -146,7 +153,28 @@ double PredictedTerms::cosine_to_half(const Triple3& l, double n_l) const {
   return model_.renormalize ? std::min(cosine, 1.0) : cosine;
 }
 
+Triple3 PredictedTerms::start() const { return pass_.program->start(values_); }
+
+std::array<double, 4> PredictedTerms::finished(const Triple3& sum, double alpha) const {
+  if (pass_.program == nullptr || !pass_.program->defines_finish()) return {sum[0], sum[1], sum[2], alpha};
+  return pass_.program->finish(sum, values_);
+}
+
+/// The light as the fault has it, which the program is given.
+Triple3 PredictedTerms::term_of_program(const Light& given) const {
+  const LightFault& fault = pass_.fault;
+  Light light = given;
+  const Triple3 place = place_of(given);
+  for (int k = 0; k < 3; ++k) light.position[k] = float(place[size_t(k)]);
+  light.color *= float(fault.intensity), light.range *= float(fault.range);
+  if (fault.swapped_colors) std::swap(light.color.x, light.color.z);
+  if (fault.no_ambient && light.type == LightType::ambient) return {};
+  const bool is_of_pass = &given >= pass_.lights.data() && &given < pass_.lights.data() + pass_.lights.size();
+  return pass_.program->term(light, is_of_pass ? uint32_t(&given - pass_.lights.data()) : 0, values_);
+}
+
 Triple3 PredictedTerms::term(const PlainSurface& surface, const Light& light) const {
+  if (pass_.program != nullptr) return term_of_program(light);
   const LightFault& fault = pass_.fault;
   const bool last = model_.order == TermOrder::albedo_last;
   Triple3 color = times(triple(light.color), double(model_.damping) * fault.intensity), out{};

@@ -10,6 +10,10 @@ class PredictedTerms {
  public:
   PredictedTerms(const LightPass& pass, const PlainSurface& surface);
 
+  /// What the sum of a light program starts from, and what becomes of it; of a light model it is as it stands.
+  Triple3 start() const;
+  std::array<double, 4> finished(const Triple3& sum, double alpha) const;
+
   /// What a light adds to the sum.
   Triple3 term(const PlainSurface& surface, const Light& light) const;
   bool in_range(const PlainSurface& surface, const Light& light) const;
@@ -17,6 +21,7 @@ class PredictedTerms {
   int fragments(const PlainSurface& surface, const Light& light) const;
 
  private:
+  Triple3 term_of_program(const Light& light) const;
   Triple3 unit_of(const Triple3& v) const;
   Triple3 place_of(const Light& light) const;
   double falloff(const Light& light, double d) const;
@@ -26,6 +31,7 @@ class PredictedTerms {
   const LightPass& pass_;
   const LightModel& model_;
   Triple3 normal_{}, viewer_{};
+  mutable std::vector<double> values_;  ///< of the light program at the surface
 };
 
 }  // namespace trueshade::oracle

@@ -46,6 +46,7 @@ class EditList {
     for (const auto& step : steps_) nodes_ = step, of_operation();
     for (const auto& step : steps_) nodes_ = step, of_constants();
     for (const auto& step : steps_) nodes_ = step, of_value();
+    for (const auto& step : steps_) nodes_ = step, of_factor();
     for (const auto& step : steps_) nodes_ = step, of_operands();
     return std::move(edits_);
   }
@@ -144,6 +145,12 @@ class EditList {
     }
   }
 
+  void of_factor() {
+    if (first().type != Type::f32 || first().op == Op::select) return;
+    ProgramEdit& edit = add(ProgramChange::scaled, "");
+    edit.number = 1, edit.fitted = true;
+  }
+
   /// A value of the same kind: a scalar that is bounded or a product of vectors, or a vector of unit length.
   void of_operands() {
     if (first().type != Type::f32 || first().op == Op::select) return;
@@ -235,6 +242,12 @@ Program edited(const Program& program, const ProgramEdit& edit) {
       case ProgramChange::other_operand:
         node.operand[edit.operand] = now[edit.others[size_t(place - edit.nodes.begin())]];
         break;
+      case ProgramChange::scaled: {
+        ProgramNode product;
+        product.op = Op::f_mul, product.operand = {push(node), constant(edit.number), kNoNode};
+        now[id] = push(product);
+        continue;
+      }
       case ProgramChange::square_of_operand:
         node.operand[edit.operand] = powered(node.operand[edit.operand], Op::f_mul);
         break;

@@ -14,6 +14,7 @@ enum class ProgramChange : uint8_t {
   number,            ///< the value is a number
   constant_operand,  ///< an operand that is a constant is another number
   other_operand,     ///< an operand is the value of another step
+  scaled,            ///< the value times a number
   square,            ///< the square of the value
   root,              ///< its root
   square_of_operand,

@@ -57,7 +57,8 @@ class ProgramSearch {
     const std::span<const Square> first(squares_.data(), 1);
     double best = 0;
     for (ProgramEdit& edit : program_edits(right_.program())) {
-      if (edit.change == ProgramChange::other_operand && best > kExplanation) break;
+      const bool is_last_resort = edit.change == ProgramChange::scaled || edit.change == ProgramChange::other_operand;
+      if (is_last_resort && best > kExplanation) break;
       if (edit.fitted && !fit(edit)) continue;
       if (match_of(edited(right_.program(), edit), first).explained < kLeastExplained / 2) continue;
       const Match match = match_of(edited(right_.program(), edit), squares_);
@@ -242,6 +243,8 @@ class ProgramSearch {
     std::string text = "line " + std::to_string(edit.line) + " of " + right_.program().name + ", `" +
                        source_line(edit.line) + "`, ";
     if (!edit.fitted) return text + edit.text;
+    if (edit.change == ProgramChange::scaled)
+      return text + "has " + number_text(edit.number) + " times the value that it should have";
     const programs::ProgramNode& node = right_.program().nodes[edit.nodes[0]];
     const uint32_t bits = right_.program().nodes[node.operand[edit.operand]].bits;
     return text + "has " + number_text(edit.number) + " where it should have " +

@@ -1,0 +1,111 @@
+#include "judge/bounds/program_fields.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <string>
+
+#include "core/error.h"
+#include "oracle/matrices.h"
+#include "scenes/pipeline/program_inputs.h"
+
+namespace trueshade::oracle {
+
+namespace {
+
+/// "surface.position.x": the part between the dots.
+std::string_view field_of(std::string_view name) {
+  const std::string_view rest = name.substr(name.find('.') + 1);
+  return rest.substr(0, rest.find_first_of(".["));
+}
+
+template <class Field>
+struct Row {
+  std::string_view name;
+  decltype(Field::of) of;
+};
+
+using S = const ShadedSurface&;
+constexpr Row<SurfaceField> kSurface[] = {
+    {"position", [](S s, size_t c) { return interval_of(s.position[c]); }},
+    {"normal", [](S s, size_t c) { return interval_of(s.normal[c]); }},
+    {"albedo", [](S s, size_t c) { return interval_of(s.albedo[c]); }},
+    {"specular", [](S s, size_t c) { return interval_of(s.specular[c]); }},
+    {"shininess", [](S s, size_t) { return interval_of({s.shininess, s.shininess_error}); }},
+    {"metallic", [](S s, size_t) { return interval_of(s.specular[0]); }},
+    {"roughness", [](S s, size_t) { return interval_of(s.specular[1]); }},
+    {"occlusion", [](S s, size_t) { return interval_of(s.ambient_share); }},
+    {"emission", [](S s, size_t c) { return interval_of(s.emission[c]); }},
+    {"uv", [](S s, size_t c) { return interval_of(s.uv[c]); }},
+    {"object", [](S s, size_t) { return Interval::of(s.object); }},
+    {"material", [](S s, size_t) { return Interval::of(s.material); }},
+    {"pixel_x", [](S s, size_t) { return Interval::of(s.pixel[0]); }},
+    {"pixel_y", [](S s, size_t) { return Interval::of(s.pixel[1]); }}};
+
+double outer_cosine(const Light& l) { return std::cos(double(l.cone_rad) + double(l.penumbra_rad)); }
+double cone_width(const Light& l) { return 1 / std::max(0.001, std::cos(double(l.cone_rad)) - outer_cosine(l)); }
+Interval nothing(const Light&, uint32_t, size_t) { return Interval::of(0); }
+Interval no_texture(const Light&, uint32_t, size_t) { return Interval::of(-1); }
+
+/// docs/arithmetic.md section 8 for the numbers of cones.
+using L = const Light&;
+constexpr Row<LightField> kLight[] = {
+    {"type", [](L l, uint32_t, size_t) { return Interval::of(double(l.type)); }},
+    {"index", [](L, uint32_t index, size_t) { return Interval::of(index); }},
+    {"position", [](L l, uint32_t, size_t c) { return Interval::of(double(l.position[int(c)])); }},
+    {"range", [](L l, uint32_t, size_t) { return Interval::of(double(l.range)); }},
+    {"direction", [](L l, uint32_t, size_t c) { return Interval::of(double(l.direction[int(c)])); }},
+    {"color", [](L l, uint32_t, size_t c) { return Interval::of(double(l.color[int(c)])); }},
+    {"attenuation", [](L l, uint32_t, size_t c) { return Interval::of(double(l.attenuation[int(c)])); }},
+    {"ambient", [](L l, uint32_t, size_t c) { return Interval::of(double(l.ambient[int(c)])); }},
+    {"cone", [](L l, uint32_t, size_t) { return Interval::of(double(l.cone_rad)); }},
+    {"penumbra", [](L l, uint32_t, size_t) { return Interval::of(double(l.penumbra_rad)); }},
+    {"cos_inner", [](L l, uint32_t, size_t) { return Interval::rounded_once(std::cos(double(l.cone_rad))); }},
+    {"cos_outer", [](L l, uint32_t, size_t) { return Interval::rounded_once(outer_cosine(l)); }},
+    {"cone_scale", [](L l, uint32_t, size_t) { return Interval::rounded_once(cone_width(l)); }},
+    {"cone_offset", [](L l, uint32_t, size_t) { return Interval::rounded_once(-outer_cosine(l) * cone_width(l)); }},
+    {"spot_exponent", [](L l, uint32_t, size_t) { return Interval::of(double(l.spot_exponent)); }},
+    {"right", nothing},
+    {"up", nothing},
+    {"shadow", no_texture},
+    {"cookie", no_texture}};
+
+template <class Field, size_t N>
+Field found(const Row<Field> (&rows)[N], std::string_view name) {
+  const auto row = std::find_if(std::begin(rows), std::end(rows),
+                                [name](const Row<Field>& r) { return r.name == field_of(name); });
+  if (row == std::end(rows))
+    throw Error(ErrorKind::bad_input, std::string(name), "is a field that nothing gives", "another field");
+  return {row->of, component_of(name)};
+}
+
+}  // namespace
+
+size_t component_of(std::string_view name) {
+  const size_t at = std::string_view("xyzw").find(name.back());
+  return at == std::string_view::npos || name.size() < 2 || name[name.size() - 2] != '.' ? 0 : at;
+}
+
+SurfaceField surface_field(std::string_view name) { return found(kSurface, name); }
+LightField light_field(std::string_view name) { return found(kLight, name); }
+
+Interval frame_field(std::string_view name, const Scene& scene, const Pipeline& pipeline) {
+  const std::string_view field = field_of(name);
+  const size_t c = component_of(name);
+  if (name.starts_with("parameters.")) {
+    if (const std::optional<float> value = parameter_value(name, pipeline.light_program))
+      return Interval::of(double(*value));
+    throw Error(ErrorKind::usage, pipeline.light_program.file, "nothing gives " + std::string(name),
+                "--light-parameter NAME=VALUE");
+  }
+  const Matrix4 clip = projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height);
+  if (field == "eye") return Interval::of(double(scene.camera.eye[int(c)]));
+  if (field == "axis") return Interval::rounded_once(-view_axis(clip)[c]);
+  if (field == "size") return Interval::of(c == 0 ? pipeline.width : pipeline.height);
+  if (field == "time" || field == "frame") return Interval::of(0);
+  if (field == "view_projection") return Interval::rounded_once(clip[4 * size_t(name[name.find('[') + 1] - '0') + c]);
+  throw Error(ErrorKind::bad_input, pipeline.light_program.file, "nothing gives " + std::string(name), "another field");
+}
+
+}  // namespace trueshade::oracle

@@ -1,0 +1,40 @@
+#pragma once
+// A light program in double: what a light pass that is right makes of a surface, for the diagnosis, which changes the
+// lights and the surface and asks again.
+#include <array>
+#include <vector>
+
+#include "judge/bounds/program_fields.h"
+#include "judge/diagnosis/light_pass.h"
+#include "judge/diagnosis/triple.h"
+#include "programs/values/program.h"
+
+namespace trueshade::oracle {
+
+class PlainProgram {
+ public:
+  PlainProgram(const Scene& scene, const Pipeline& pipeline);
+
+  bool defines_finish() const { return program_.defines_finish; }
+
+  /// The values of one surface, for the functions below. Not while others use them.
+  using Values = std::vector<double>;
+  void look_at(const PlainSurface& surface, const Camera& camera, Values& values) const;
+  Triple3 start(const Values& values) const { return three(programs::kStartOutput, values); }
+  Triple3 term(const Light& light, uint32_t index, Values& values) const;
+  std::array<double, 4> finish(const Triple3& sum, Values& values) const;
+
+ private:
+  Triple3 three(int output, const Values& values) const;
+  void run(const std::vector<programs::NodeId>& nodes, Values& values) const;
+  double computed(const programs::ProgramNode& node, const Values& values) const;
+
+  programs::Program program_;
+  Values first_;  ///< constants, and what holds for the frame
+  std::vector<programs::NodeId> of_frame_, of_surface_, of_light_, of_sum_;
+  std::vector<std::pair<programs::NodeId, SurfaceField>> surface_inputs_;
+  std::vector<std::pair<programs::NodeId, LightField>> light_inputs_;
+  std::vector<std::pair<programs::NodeId, size_t>> sum_inputs_, eye_inputs_;
+};
+
+}  // namespace trueshade::oracle
