@@ -13,7 +13,7 @@ faults=(
   'race|a list that threads share is read without its lock|core/threads/thread_pool.cpp|/join_loop() {$/{n;d}|ThreadSanitizer: data race'
   'past_end|a reader takes one byte more than its file has|scenes/files/ply_header.cpp|s/(file.data()), file.size())/(file.data()), file.size() + 1)/|heap-buffer-overflow'
   'nan|a blend factor of zero is multiplied, and 0 * infinity is NaN|shading/blend/blend-inl.h|s/group->drop_source = term.src == BlendFactor::zero;/group->drop_source = false;/|A zero factor drops its term'
-  'page|a button of the page calls what is not there|cli/pages/script/viewer.js|s/"Zoom in (+)", () => this.zoom_by(2)/"Zoom in (+)", () => this.zoom_in(2)/|FAIL: test_keys_do_what_buttons_do\|ERROR: test_keys_do_what_buttons_do'
+  'page|a button of the page calls what is not there|cli/pages/script/viewer.js|s/"Zoom in (+)", () => this.zoom_by(2)/"Zoom in (+)", () => this.zoom_in(2)/|(FAIL\|ERROR): test_every_button_of_the_bar'
   'module|a function of the Python module is not exported|python/trueshade/__init__.py|/^strategies = /d|FAILED tests/python/test_stub.py'
   'word|a word of a guide is wrong: an option that does not exist|docs/export.md|0,/trueshade export /s//trueshade exports /|exports'
 )
@@ -35,7 +35,7 @@ nan() {  # ./check full
 }
 page() {  # ./check pages
   with_command
-  ./check pages Page.test_keys_do_what_buttons_do
+  ./check pages Page.test_every_button_of_the_bar_does_what_it_says
 }
 module() {  # ./check python
   with_command
