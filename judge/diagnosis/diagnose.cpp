@@ -151,7 +151,11 @@ std::vector<Finding> diagnose(const Scene& scene, const Pipeline& asked, const P
     planes = plane_findings(scene, pipeline, profile, capture, *surfaces, only.planes);
   std::vector<Finding> findings;
   const bool asks_lit = supposed.empty() || !only.picture.empty() || !only.glass.empty();
-  if (lit != nullptr && asks_lit && (!supposed.empty() || is_suspicious(*lit))) {
+  std::vector<Finding> lines;
+  if (pipeline.light_program.used() && lit != nullptr && supposed.empty())
+    lines = program_findings(scene, pipeline, profile, capture, *lit, most);
+  const bool told = !lines.empty() && !lines[0].fitted && lines[0].explained > 0.995 && lines[0].contradicted < 0.005;
+  if (!told && lit != nullptr && asks_lit && (!supposed.empty() || is_suspicious(*lit))) {
     const Shown shown{scene, pipeline, profile, capture, *lit};
     const std::unique_ptr<PictureCase> picture = picture_of(shown, planes);
     if (supposed.empty() || !only.picture.empty()) findings = picture_findings(*picture, only.picture);
@@ -162,8 +166,7 @@ std::vector<Finding> diagnose(const Scene& scene, const Pipeline& asked, const P
       add_glass(glass_findings(scene, pipeline, profile, capture, over != nullptr ? *over : *lit, *picture, only.glass),
                 findings);
   }
-  if (pipeline.light_program.used() && lit != nullptr && supposed.empty())
-    findings = best_of(program_findings(scene, pipeline, profile, capture, *lit, most), std::move(findings), most);
+  if (!lines.empty()) findings = best_of(std::move(lines), std::move(findings), most);
   findings = merged(std::move(planes.findings), std::move(findings), most);
   return supposed.empty() ? partial_last(std::move(findings)) : findings;
 }

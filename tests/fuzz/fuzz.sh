@@ -1,6 +1,6 @@
 #!/bin/bash
 # tests/fuzz/fuzz.sh SECONDS [TARGET...]: builds the fuzzer and runs each target for so many seconds, from its corpus and
-# from what earlier runs have found, which build/fuzz/found keeps. The last line says how many inputs were run. A finding
+# from what earlier runs have found, which build/fuzz/found keeps. One line a target says how many inputs were run. A finding
 # stays in build/fuzz/findings and ends in exit code 1.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -13,17 +13,35 @@ seconds=$1
 shift
 targets=("$@")
 ((${#targets[@]} > 0)) || mapfile -t targets < <(build/fuzz/tests/fuzz/fuzz_replay)
-status=0
-for target in "${targets[@]}"; do
-  mkdir -p "build/fuzz/found/$target" build/fuzz/findings
-  dictionary=()
+mkdir -p build/fuzz/findings
+
+# fuzzed TARGET: runs it, and says what it found.
+fuzzed() {
+  local target=$1 dictionary=() status=0 executions log=build/fuzz/$1.log
+  mkdir -p "build/fuzz/found/$target"
   [[ -e tests/fuzz/$target.dict ]] && dictionary=("-dict=tests/fuzz/$target.dict")
-  log=build/fuzz/$target.log
   ASAN_OPTIONS=quarantine_size_mb=16 TRUESHADE_FUZZ_TARGET=$target build/fuzz/tests/fuzz/fuzzer -max_total_time="$seconds" -timeout=1 -rss_limit_mb=512 \
     -max_len=32768 -print_final_stats=1 -artifact_prefix="build/fuzz/findings/$target-" "${dictionary[@]}" \
     "build/fuzz/found/$target" "tests/fuzz/corpus/$target" >"$log" 2>&1 || status=1
   executions=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
   printf '%-14s %10s inputs, %s\n' "$target" "${executions:-?}" "$(grep -aoE 'cov: [0-9]+ ft: [0-9]+' "$log" | tail -n 1)"
   grep -aE 'ERROR|runtime error|SUMMARY|broken promise' "$log" | head -n 4 || true
+  return "$status"
+}
+
+# One on each core.
+status=0 running=0
+for target in "${targets[@]}"; do
+  if ((running == $(nproc))); then
+    wait -n || status=1
+    running=$((running - 1))
+  fi
+  fuzzed "$target" &
+  running=$((running + 1))
+done
+while ((running > 0)); do
+  wait -n || status=1
+  running=$((running - 1))
 done
 if ((status != 0)); then die "there are findings in build/fuzz/findings"; fi
+say "${#targets[@]} targets ran for $seconds s each, without a finding"

@@ -321,6 +321,24 @@ class Page(unittest.TestCase):
         self.browser.key("Escape")
         self.assertIsNone(self.viewer("v.panes.pin"))
 
+    def test_every_button_of_the_bar_does_what_it_says(self):
+        self.open(wrong_page())
+        fit = self.viewer("v.panes.fit_zoom")
+        self.press("+")
+        larger = self.viewer("v.panes.zoom")
+        self.assertGreater(larger, fit)
+        self.press("+")
+        self.assertAlmostEqual(self.viewer("v.panes.zoom"), 2 * larger)
+        self.press("\u2212")
+        self.assertAlmostEqual(self.viewer("v.panes.zoom"), larger)
+        self.press("1:1")
+        self.assertEqual(self.viewer("v.panes.zoom"), 1)
+        self.press("Fit")
+        self.assertEqual(self.viewer("v.panes.view.zoom"), 0)
+        for is_hidden in (False, True):
+            self.press("?")
+            self.assertEqual(self.browser.run("return document.querySelector('.keys').hidden;"), is_hidden)
+
     def test_light_and_dark_follow_the_system_and_the_button(self):
         background = "return getComputedStyle(document.body).backgroundColor;"
         self.open(wrong_page(), theme="dark")

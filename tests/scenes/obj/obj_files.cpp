@@ -1,5 +1,5 @@
-#include <chrono>
 #include <cmath>
+#include <ctime>
 
 #include "scenes/files/obj/obj_scene.h"
 #include "tests/scenes/expect_error.h"
@@ -143,8 +143,7 @@ TEST_CASE("OBJ: many vertices, groups or objects at one position take no time ea
     }
     return text;
   };
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
+  const std::clock_t start = std::clock();  // of the CPU: other programs may be at work
   CHECK(read(faces("s "), MissingNormals::smooth).meshes[0].vertex_count() == 3 * kFaces);
   CHECK(read(faces(""), MissingNormals::flat).meshes[0].vertex_count() == 3 * kFaces);
   CHECK(read(faces(""), MissingNormals::smooth).meshes[0].vertex_count() == 3);
@@ -152,7 +151,7 @@ TEST_CASE("OBJ: many vertices, groups or objects at one position take no time ea
   std::string coordinates = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   for (int i = 1; i <= kFaces; ++i) coordinates += "vt 0." + std::to_string(i) + " 0\nf 1/-1 2/-1 3/-1\n";
   CHECK(read(coordinates, MissingNormals::smooth).meshes[0].vertex_count() == 3 * kFaces);
-  CHECK(Clock::now() - start < std::chrono::seconds(20));  // 80 s each where each vertex is held against all others
+  CHECK((std::clock() - start) / CLOCKS_PER_SEC < 20);  // 80 s each where each vertex is held against all others
 }
 
 TEST_CASE("OBJ: what is wrong names its line") {
