@@ -1,8 +1,10 @@
 #include "scenes/light_models/light_models.h"
 
 #include <array>
+#include <vector>
 
 #include "core/error.h"
+#include "core/likeliest_name.h"
 #include "core/sha256.h"
 #include "scenes/light_models/texts.h"
 
@@ -32,18 +34,20 @@ std::span<const ShippedModel> shipped_models() {
 
 bool names_shipped_model(std::string_view name) { return name.find_first_of("./") == std::string_view::npos; }
 
-const ShippedModel& shipped_model(std::string_view name, const std::string& option) {
-  std::string names;
+const ShippedModel& shipped_model(std::string_view name) {
+  std::vector<std::string_view> names;
+  std::string all;
   for (const ShippedModel& model : shipped_models()) {
     if (model.name == name) return model;
-    names += (names.empty() ? "" : " ") + std::string(model.name);
+    names.push_back(model.name);
+    all += ' ' + std::string(model.name);
   }
-  throw Error(ErrorKind::usage, option, "no light model that ships is named '" + std::string(name) + "'",
-              "one of: " + names + "; or a file, ./" + std::string(name));
+  throw Error(ErrorKind::usage, "'" + std::string(name) + "'", "is no light model that ships",
+              did_you_mean(name, names) + "one of:" + all + "; or a file, whose name has a dot or a slash");
 }
 
 LightProgram shipped_program(std::string_view name) {
-  const ShippedModel& model = shipped_model(name, "light_program");
+  const ShippedModel& model = shipped_model(name);
   return {std::string(model.name), std::string(model.text), sha256_of(std::string(model.text)), {}};
 }
 

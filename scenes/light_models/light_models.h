@@ -20,8 +20,8 @@ std::span<const ShippedModel> shipped_models();
 /// Whether what names a light program means a model that ships, and not a file: it has neither a dot nor a slash.
 bool names_shipped_model(std::string_view name);
 
-/// Error(usage) with the names of all where there is none of this one; `option` is what gave it.
-const ShippedModel& shipped_model(std::string_view name, const std::string& option);
+/// Error(usage) with the names of all where there is none of this one.
+const ShippedModel& shipped_model(std::string_view name);
 
 /// The model as a pipeline has it, without parameters. Error(usage) as above.
 LightProgram shipped_program(std::string_view name);
