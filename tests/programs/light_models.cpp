@@ -66,7 +66,7 @@ double cone(const Case& c, const Angles& a) {
 }
 
 dvec3 arriving(const Case& c, const Angles& a, double (*falloff)(double, double) = khr_falloff) {
-  if (c.light.type == LightType::directional) return c.light.color;
+  if (c.light.type == LightType::directional) return dvec3(c.light.color);
   const double d = glm::length(dvec3(c.light.position) - c.position);
   return dvec3(c.light.color) * (falloff(d, double(c.light.range)) * cone(c, a));
 }
@@ -225,6 +225,7 @@ constexpr double kOff = 4e-7;  ///< of unit vectors in f32: three roundings of 2
 /// off by kOff. The second is for cosines and windows near 0, narrow lobes, and the edges of steps.
 dvec3 allowed(const Row& row, const Case& c, const dvec3& value) {
   dvec3 sum = 1e-5 * value;
+  if (row.formula == blinn_phong) sum += c.shininess * kOff * value;  // a power of a cosine that is off by kOff
   const double to_light = glm::length(dvec3(c.light.position) - c.position), to_eye = glm::length(c.eye - c.position);
   for (int axis = 0; axis < 3; ++axis)
     for (const double sign : {-1.0, 1.0}) {
@@ -285,6 +286,7 @@ Numbers numbers_of(const Case& c) {
     out["surface.normal" + end] = bits_of(float(c.normal[i]));
     out["surface.albedo" + end] = bits_of(float(c.albedo[i]));
     out["surface.specular" + end] = bits_of(float(c.specular[i]));
+    out["surface.emission" + end] = bits_of(0.0f);
     out["view.eye" + end] = bits_of(float(c.eye[i]));
   }
   return out;
@@ -395,19 +397,20 @@ TEST_CASE("Every light model that ships adds what its source's formula gives in 
     for (const std::string_view target : simd_targets()) {
       const SimdScope scope(target);
       const std::vector<glm::vec3> made = added(row, sample, kTurns);
-      size_t lit = 0, tight = 0;
-      for (size_t i = 0; i < made.size(); ++i)
-        for (int k = 0; k < 3; ++k) {
-          const double value = expected[i].first[k], bound = expected[i].second[k];
-          lit += value > 0, tight += value > 0 && bound < 5e-5 * value;
-          if (!(std::abs(double(made[i][k]) - value) <= bound)) {
-            const Case c = sample.at(i % kSurfaces, i / kSurfaces, row);
-            INFO("target " << target << ", lane " << i << ", channel " << k << ", light type " << int(c.light.type)
-                           << ", roughness " << c.roughness << ", nl " << Angles(c).nl << ", nv " << Angles(c).nv);
-            CHECK(double(made[i][k]) == value);
-            REQUIRE(bound == 0);
-          }
-        }
+      size_t lit = 0, tight = 0, worst = 0;
+      double most = 0;  // of errors, by what is allowed
+      for (size_t i = 0; i < 3 * made.size(); ++i) {
+        const int k = int(i % 3);
+        const double value = expected[i / 3].first[k], bound = expected[i / 3].second[k];
+        const double error = std::abs(double(made[i / 3][k]) - value);
+        lit += value > 0, tight += value > 0 && bound < 5e-5 * value;
+        if (!(error <= most * bound)) worst = i, most = bound > 0 ? error / bound : 1e9;
+      }
+      const Case c = sample.at(worst / 3 % kSurfaces, worst / 3 / kSurfaces, row);
+      INFO("channel " << worst % 3 << " of a light of type " << int(c.light.type) << ", roughness " << c.roughness
+                      << ", N.L " << Angles(c).nl << ", N.V " << Angles(c).nv << ": " << made[worst / 3][int(worst % 3)]
+                      << ", not " << expected[worst / 3].first[int(worst % 3)] << "; target " << target);
+      CHECK(most <= 1);
       CHECK(lit > made.size());    // of three channels a pair
       CHECK(4 * tight > 3 * lit);  // most cases are held to 5e-5
     }
@@ -430,7 +433,7 @@ TEST_CASE("No light model that ships makes a NaN where a vector has no direction
       c.position = 2.0 * c.eye - dvec3(sample.lights[Sample::light_of(i, 0)].position);  // between them
     if (i / 6 % 4 == 3) c.position = c.eye * (1.0 + 1e-6);
     c.roughness = i / 24 % 3 == 0 ? 0 : i / 24 % 3 == 1 ? 1 : c.roughness;
-    c.metallic = i / 72 % 2, c.shininess = i / 24 % 3 == 0 ? 0 : 8192;
+    c.metallic = double(i / 72 % 2), c.shininess = i / 24 % 3 == 0 ? 0 : 8192;
     if (i / 144 % 2 == 1) c.albedo = c.specular = dvec3(double(i / 288 % 2));
   }
   for (size_t i = 0; i < kLights; i += 3) sample.lights[i].range = infinite, sample.lights[i].color = glm::vec3(1e18f);
