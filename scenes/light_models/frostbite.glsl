@@ -4,7 +4,7 @@
 //   F = F0 + (1 - F0) (1 - L.H)^5,   F0 = mix(0.04, albedo, metallic)
 //   fd = e(N.L) e(N.V) mix(1, 1 / 1.51, r),  e(x) = 1 + (f90 - 1) (1 - x)^5,  f90 = 0.5 r + 2 r (L.H)^2
 //   of a point light arrives color * clamp(1 - (d / range)^4, 0, 1)^2 / max(d^2, 0.0001), and of its cone the square
-// N.V is |N.V| + 0.00001 as there, a at least 0.002. An ambient light adds color * albedo.
+// N.V is |N.V| + 0.00001 as there, a at least 0.002; D is 0 where N.H is. An ambient light adds color * albedo.
 // Reads position, normal, albedo, metallic, roughness; lights of all four types; the eye.
 const float pi = 3.14159265;
 
@@ -30,7 +30,7 @@ vec3 light(Surface s, Light l, View v) {
   float nh = max(dot(n, h), 0.0), nv = min(abs(dot(n, eye)) + 0.00001, 1.0), lh = clamp(dot(to, h), 0.0, 1.0);
   float a = max(s.roughness * s.roughness, 0.002), a2 = a * a;
   // |N x H|^2 is 1 - (N.H)^2 without its cancellation; the sum is never below a^2.
-  float q = max(a2 * nh * nh + dot(across, across), a2), d = a2 / (pi * q * q);
+  float q = max(a2 * nh * nh + dot(across, across), a2), d = nh > 0.0 ? a2 / (pi * q * q) : 0.0;
   float visible = 0.5 / (nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2));
   vec3 f0 = mix(vec3(0.04), s.albedo.rgb, s.metallic), f = f0 + (1.0 - f0) * pow(1.0 - lh, 5.0);
   float f90 = 0.5 * s.roughness + 2.0 * s.roughness * lh * lh;

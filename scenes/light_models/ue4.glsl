@@ -3,8 +3,8 @@
 //   G = g(N.L) g(N.V),  g(x) = x / (x (1 - k) + k),  k = (roughness + 1)^2 / 8
 //   F = F0 + (1 - F0) 2^((-5.55473 V.H - 6.98316) V.H),   F0 = mix(0.04, albedo, metallic)
 //   of a point light arrives color * clamp(1 - (d / range)^4, 0, 1)^2 / (d^2 + 1); Unreal's d is in centimetres
-// Cones are those of KHR_lights_punctual. N.V is at least 0.0001, a at least 0.001. An ambient light adds
-// color * albedo. Reads position, normal, albedo, metallic, roughness; lights of all four types; the eye.
+// Cones are those of KHR_lights_punctual. N.V is at least 0.0001, a at least 0.001; D is 0 where N.H is. An ambient
+// light adds color * albedo. Reads position, normal, albedo, metallic, roughness; lights of all four types; the eye.
 const float pi = 3.14159265;
 
 // What arrives of a light, and from where.
@@ -27,7 +27,7 @@ vec3 light(Surface s, Light l, View v) {
   float nh = max(dot(n, h), 0.0), nv = max(dot(n, eye), 0.0001), vh = clamp(dot(eye, h), 0.0, 1.0);
   float a = max(s.roughness * s.roughness, 0.001), a2 = a * a, k = (s.roughness + 1.0) * (s.roughness + 1.0) / 8.0;
   // |N x H|^2 is 1 - (N.H)^2 without its cancellation; the sum is never below a^2.
-  float q = max(a2 * nh * nh + dot(across, across), a2), d = a2 / (pi * q * q);
+  float q = max(a2 * nh * nh + dot(across, across), a2), d = nh > 0.0 ? a2 / (pi * q * q) : 0.0;
   vec3 f0 = mix(vec3(0.04), s.albedo.rgb, s.metallic);
   vec3 f = f0 + (1.0 - f0) * exp2((-5.55473 * vh - 6.98316) * vh);
   vec3 diffuse = s.albedo.rgb * ((1.0 - s.metallic) / pi);
