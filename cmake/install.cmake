@@ -14,7 +14,7 @@ if(TARGET trueshade_mpi_module)
 endif()
 foreach(header
   core/array.h core/blend_state.h core/error.h core/expansion.h core/format.h core/memory_cap.h core/threads/parallel_for.h core/half.h core/image.h core/image_files/image_io.h core/numeric_profile.h core/sha256.h
-  scenes/builtin/builtin.h scenes/camera.h scenes/pipeline/image_view.h scenes/light.h scenes/pipeline/light_model.h scenes/pipeline/light_program.h scenes/mesh.h scenes/pipeline/pipeline.h
+  scenes/builtin/builtin.h scenes/camera.h scenes/pipeline/image_view.h scenes/light.h scenes/light_models/light_models.h scenes/pipeline/light_model.h scenes/pipeline/light_program.h scenes/mesh.h scenes/pipeline/pipeline.h
   scenes/placement.h scenes/pipeline/post_chain.h scenes/pipeline/presets.h scenes/texture.h scenes/timeline.h scenes/pipeline/transparency.h
   scenes/scene.h scenes/scene_limits.h core/simd/simd_target.h shading/frame.h shading/output/extent.h)
   get_filename_component(folder ${header} DIRECTORY)
@@ -24,6 +24,9 @@ endforeach()
 install(FILES ${PROJECT_SOURCE_DIR}/scenes/schemas/scene.schema.json ${PROJECT_SOURCE_DIR}/scenes/schemas/pipeline.schema.json
               ${PROJECT_SOURCE_DIR}/cli/batch/jobs.schema.json
         DESTINATION ${CMAKE_INSTALL_DATADIR}/trueshade COMPONENT command)
+
+file(GLOB light_models CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scenes/light_models/*.glsl)
+install(FILES ${light_models} DESTINATION ${CMAKE_INSTALL_DATADIR}/trueshade/light_models COMPONENT command)
 
 install(EXPORT trueshade NAMESPACE trueshade:: FILE trueshadeTargets.cmake DESTINATION ${config_dir} COMPONENT dev)
 install(EXPORT trueshade_image_io NAMESPACE trueshade:: FILE trueshadeImageIoTargets.cmake DESTINATION ${config_dir} COMPONENT dev)
