@@ -93,10 +93,11 @@ struct ProgramFacts {
   std::vector<std::string> functions{"light"};                  ///< that it defines
 };
 
-/// "surface.normal.x" without its component; a scalar's name as it is.
+/// "surface.normal.x" without its component; a scalar's name, "parameters.x", as it is.
 std::string without_component(const std::string& name) {
   const size_t end = name.size() - 2;
-  const bool is_component = name[end] == '.' && std::string_view("xyzw").find(name.back()) != std::string_view::npos;
+  const bool is_component =
+      name.find('.') < end && name[end] == '.' && std::string_view("xyzw").find(name.back()) != std::string_view::npos;
   return is_component ? name.substr(0, end) : name;
 }
 
@@ -106,7 +107,8 @@ std::string glsl_type(programs::Type type, size_t components) {
 }
 
 ProgramFacts facts_of(const std::string& name) {
-  ProgramFacts facts{.program = light_program_of(name)};
+  ProgramFacts facts;
+  facts.program = light_program_of(name);
   if (names_shipped_model(name)) facts.about = shipped_model(name).about;
   const programs::LightOutline outline = programs::light_outline(facts.program.file, facts.program.text, "");
   const std::string_view block = "parameters.";

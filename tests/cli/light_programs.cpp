@@ -157,10 +157,10 @@ TEST_CASE("list names the models that ship, and says of one what it reads, as it
   for (const char* line : {"toon: Cartoons", "\n  steps           float\n", "\n  surface.normal\n", "\n  light\n"})
     CHECK(has(text, line));
   write("tinted.glsl",
-        "layout(std140) uniform Parameters { float gain; vec3 tint; };\n"
-        "vec3 light(Surface s, Light l, View v) { return gain * tint * s.albedo.rgb; }\n");
+        "layout(std140) uniform Parameters { float x; vec3 tint; };\n"
+        "vec3 light(Surface s, Light l, View v) { return x * tint * s.albedo.rgb; }\n");
   CHECK(facts("tinted.glsl").at("parameters") ==
-        json::parse(R"([{"name": "gain", "type": "float"}, {"name": "tint", "type": "vec3"}])"));
+        json::parse(R"([{"name": "x", "type": "float"}, {"name": "tint", "type": "vec3"}])"));
   CHECK(facts("tinted.glsl").at("reads") == json::array({"surface.albedo"}));
   CHECK(run({"list", "glft"}).exit_code == 2);
 }
