@@ -119,8 +119,8 @@ ProgramFacts facts_of(const std::string& name) {
     facts.parameters.emplace_back(whole.substr(block.size()), glsl_type(outline.parameters[i].type, next - i));
   }
   for (const std::string& input : outline.inputs)
-    if (const std::string field = without_component(input);
-        !field.starts_with(block) && (facts.fields.empty() || facts.fields.back() != field))
+    if (const std::string field = without_component(input); !field.starts_with(block) && !field.starts_with("sum.") &&
+                                                            (facts.fields.empty() || facts.fields.back() != field))
       facts.fields.push_back(field);
   if (outline.defines_reaches) facts.functions.emplace_back("reaches");
   if (outline.defines_start) facts.functions.emplace_back("start");

@@ -153,6 +153,11 @@ TEST_CASE("list names the models that ship, and says of one what it reads, as it
   CHECK(reads(gltf, "view.eye"));
   CHECK_FALSE(reads(toon, "surface.roughness"));
   CHECK_FALSE(reads(toon, "view.eye"));
+  for (const json& field : gltf.at("reads")) {  // fields of the three structures, without components
+    const std::string name = field;
+    CHECK((name.starts_with("surface.") || name.starts_with("light.") || name.starts_with("view.")));
+    CHECK(std::count(name.begin(), name.end(), '.') == 1);
+  }
   const std::string text = run({"list", "toon"}).out;
   for (const char* line : {"toon: Cartoons", "\n  steps           float\n", "\n  surface.normal\n", "\n  light\n"})
     CHECK(has(text, line));
