@@ -4,8 +4,9 @@
 //   F = (g - c)^2 / (2 (g + c)^2) (1 + ((c (g + c) - 1) / (c (g - c) + 1))^2),  c = V.H,  g^2 = i^2 + c^2 - 1,
 //     the index i = (1 + sqrt(F0)) / (1 - sqrt(F0)),  F0 = mix(0.04, albedo, metallic) at most 0.99
 // The paper has pi for the 4; 4 and the pi of D are those of Walter et al., Microfacet Models for Refraction (2007), 5.
-// c_diff = albedo (1 - metallic). N.V and V.H are at least 0.0001, N.H 0.001, m 0.01. An ambient light adds
-// color * albedo. Reads position, normal, albedo, metallic, roughness; lights of all four types; the eye.
+// c_diff = albedo (1 - metallic). N.V and V.H are at least 0.0001, N.H 0.001, m 0.01. From m = 0.71 on, D is brightest
+// around N and not at it: a ring, which is Beckmann's. An ambient light adds color * albedo.
+// Reads position, normal, albedo, metallic, roughness; lights of all four types; the eye.
 const float pi = 3.14159265;
 
 // What arrives of a light, and from where: the inverse square under a window, and the cone, of KHR_lights_punctual.

@@ -188,7 +188,8 @@ dvec3 toon(const Case& c) {
   const Angles a(c);
   const double d = glm::length(dvec3(c.light.position) - c.position);
   const double w = c.light.type == LightType::directional ? 1 : square(clamped(1 - square(d / double(c.light.range))));
-  return c.albedo * dvec3(c.light.color) * std::ceil(c.parameter * a.nl * w * cone(c, a)) / c.parameter;
+  const dvec3 color(c.light.color), paint = color / std::max({color.r, color.g, color.b, 1.0});
+  return c.albedo * paint * std::ceil(c.parameter * a.nl * w * cone(c, a)) / c.parameter;
 }
 
 struct Row {
