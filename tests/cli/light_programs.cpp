@@ -114,7 +114,7 @@ TEST_CASE("A light model that ships is drawn by its name, and the picture says w
   CHECK(shipped.out != with({"--light-shader", "./gltf", "--hash"}).out);
   write("of_name.json", R"({"light_program":{"file":"gltf"},"light_volumes":{"point":"range","spot":"range"}})");
   CHECK(with({"--pipeline", "of_name.json", "--hash"}).out == shipped.out);
-  const Outcome unknown = with({"--light-shader", "glft"});
+  const Outcome unknown = with({"--light-shader", "glft", "--hash"});
   CHECK(unknown.exit_code == 2);
   CHECK(has(unknown.err, "did you mean gltf?"));
   for (const ShippedModel& model : shipped_models()) CHECK(has(unknown.err, " " + std::string(model.name)));
