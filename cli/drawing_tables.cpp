@@ -19,8 +19,10 @@ void add_layers(CommandTable& table, PipelineOptions& options) {
 }
 
 void add_light_program(CommandTable& table, PipelineOptions& options) {
-  add_value(table, "--light-shader", "FILE", options.light_shader,
-            "GLSL or SPIR-V of light(), which takes the place of the preset's formula (docs/light_programs.md)");
+  add_value(
+      table, "--light-shader", "FILE", options.light_shader,
+      "In place of the preset's formula: a light model that ships, which trueshade list names, or a file of GLSL or "
+      "SPIR-V (docs/light_programs.md)");
   add_values(table, "--light-parameter", "NAME=VALUE", options.light_parameters,
              "A member of its uniform block Parameters, components with commas; may be repeated");
 }

@@ -4,10 +4,13 @@
 
 #include "cli/commands.h"
 #include "cli/json_text.h"
+#include "cli/preparation.h"
 #include "core/numeric_profile.h"
 #include "judge/bounds/profile_names.h"
 #include "judge/diagnosis/finding.h"
+#include "programs/front/light_outline.h"
 #include "scenes/builtin/builtin.h"
+#include "scenes/light_models/light_models.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
 
@@ -38,6 +41,8 @@ std::vector<Section> sections() {
   for (const auto& [profile, whose] : kWhose) profiles.entries.emplace_back(profile_name(profile), whose);
   Section drivers{"driver_profiles", "Profiles that validate holds a driver to (--profile)", {}};
   for (const std::string_view name : oracle::kDriverProfileNames) drivers.entries.emplace_back(name, "");
+  Section models{"light_models", "Light models (--light-shader; `trueshade list MODEL` says what one reads)", {}};
+  for (const ShippedModel& model : shipped_models()) models.entries.emplace_back(model.name, model.about);
   Section formats{"formats", "Formats", {}}, planes{"aovs", "Planes (--aov)", {}};
   Section views{"views", "Views (--view)", {}};
   Section simd{"simd", "SIMD targets of this machine, best first (--simd)", {}};
@@ -53,7 +58,7 @@ std::vector<Section> sections() {
   Section schemas{
       "schemas", "JSON Schemas, for editors (installed in share/trueshade, in the sources in scenes/schemas)", {}};
   schemas.entries = {{"scene.schema.json", "of scene files"}, {"pipeline.schema.json", "of pipeline files"}};
-  return {scenes, rows, strategies, profiles, drivers, formats, planes, views, simd, faults, schemas};
+  return {scenes, rows, models, strategies, profiles, drivers, formats, planes, views, simd, faults, schemas};
 }
 
 std::string json_of(const std::vector<Section>& list) {
@@ -79,8 +84,83 @@ std::string text_of(const std::vector<Section>& list) {
   return text;
 }
 
+/// What a user of a light program must know of it.
+struct ProgramFacts {
+  LightProgram program;
+  std::string about;                                            ///< of a model that ships
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< names and types of GLSL
+  std::vector<std::string> fields;                              ///< that it reads: surface.normal, light.range
+  std::vector<std::string> functions{"light"};                  ///< that it defines
+};
+
+/// "surface.normal.x" without its component; a scalar's name, "parameters.x", as it is.
+std::string without_component(const std::string& name) {
+  const size_t end = name.size() - 2;
+  const bool is_component =
+      name.find('.') < end && name[end] == '.' && std::string_view("xyzw").find(name.back()) != std::string_view::npos;
+  return is_component ? name.substr(0, end) : name;
+}
+
+std::string glsl_type(programs::Type type, size_t components) {
+  constexpr const char *kScalar[] = {"float", "int", "uint", "bool"}, *kVector[] = {"vec", "ivec", "uvec", "bvec"};
+  return components == 1 ? kScalar[size_t(type)] : kVector[size_t(type)] + std::to_string(components);
+}
+
+ProgramFacts facts_of(const std::string& name) {
+  ProgramFacts facts;
+  facts.program = light_program_of(name);
+  if (names_shipped_model(name)) facts.about = shipped_model(name).about;
+  const programs::LightOutline outline = programs::light_outline(facts.program.file, facts.program.text, "");
+  const std::string_view block = "parameters.";
+  for (size_t i = 0, next = 0; i < outline.parameters.size(); i = next) {
+    const std::string whole = without_component(outline.parameters[i].name);
+    for (next = i; next < outline.parameters.size() && without_component(outline.parameters[next].name) == whole;)
+      ++next;
+    facts.parameters.emplace_back(whole.substr(block.size()), glsl_type(outline.parameters[i].type, next - i));
+  }
+  for (const std::string& input : outline.inputs)
+    if (const std::string field = without_component(input); !field.starts_with(block) && !field.starts_with("sum.") &&
+                                                            (facts.fields.empty() || facts.fields.back() != field))
+      facts.fields.push_back(field);
+  if (outline.defines_reaches) facts.functions.emplace_back("reaches");
+  if (outline.defines_start) facts.functions.emplace_back("start");
+  if (outline.defines_finish) facts.functions.emplace_back("finish");
+  return facts;
+}
+
+std::string json_of(const ProgramFacts& facts) {
+  JsonObject json;
+  json.put("name", facts.program.file);
+  if (!facts.about.empty()) json.put("description", facts.about);
+  json.put("sha256", facts.program.sha256);
+  JsonArray parameters, reads, defines;
+  for (const auto& [name, type] : facts.parameters)
+    parameters.add_raw(JsonObject().put("name", name).put("type", type).text());
+  for (const std::string& field : facts.fields) reads.add_raw(json_string(field));
+  for (const std::string& function : facts.functions) defines.add_raw(json_string(function));
+  json.put_raw("parameters", parameters.text()).put_raw("reads", reads.text()).put_raw("defines", defines.text());
+  return json.text() + '\n';
+}
+
+std::string text_of(const ProgramFacts& facts) {
+  Section what{"", facts.program.file, {{"sha256", facts.program.sha256}}};
+  if (!facts.about.empty()) what.heading += ": " + facts.about;
+  Section parameters{"", "Parameters (--light-parameter NAME=VALUE)", facts.parameters};
+  if (facts.parameters.empty()) parameters.entries = {{"none", ""}};
+  Section reads{"", "Reads", {}}, defines{"", "Defines", {}};
+  for (const std::string& field : facts.fields) reads.entries.emplace_back(field, "");
+  for (const std::string& function : facts.functions) defines.entries.emplace_back(function, "");
+  return text_of(std::vector{what, parameters, reads, defines});
+}
+
 }  // namespace
 
-void print_list(const ListOptions& options) { print(options.json ? json_of(sections()) : text_of(sections())); }
+void print_list(const ListOptions& options) {
+  if (!options.model.empty()) {
+    const ProgramFacts facts = facts_of(options.model);
+    return print(options.json ? json_of(facts) : text_of(facts));
+  }
+  print(options.json ? json_of(sections()) : text_of(sections()));
+}
 
 }  // namespace trueshade

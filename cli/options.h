@@ -48,7 +48,7 @@ struct PipelineOptions : LimitedOptions {
   std::string scene;                  ///< a file or builtin:NAME
   std::optional<std::string> preset;  ///< the lowest layer; nothing: the first row of presets()
   std::optional<std::string> pipeline_file;
-  std::optional<std::string> light_shader;    ///< a light program's file
+  std::optional<std::string> light_shader;    ///< a light program's file, or a model that ships
   std::vector<std::string> light_parameters;  ///< NAME=VALUE[,VALUE...]
   std::optional<Size> size;
   std::optional<Format> target;
@@ -105,6 +105,7 @@ struct ExportOptions : LimitedOptions {
 
 /// `trueshade list`
 struct ListOptions : CommonOptions {
+  std::string model;  ///< of this light model or program alone, as --light-shader has it; empty: all names
   bool json = false;
 };
 

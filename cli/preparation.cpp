@@ -13,6 +13,7 @@
 #include "core/standard_input.h"
 #include "scenes/files/content/scene_files.h"
 #include "scenes/json/json_value.h"
+#include "scenes/light_models/light_models.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/frame_memory.h"
 #include "shading/output/derived_planes.h"
@@ -69,10 +70,19 @@ uint64_t file_memory(const Pipeline& pipeline, const PictureRegion& region, std:
   const uint64_t texel = texel_bytes(pipeline), shown = 4 + 3, pixels = drawn_pixels(pipeline, region);
   uint64_t largest = 0;
   for (const std::string& path : paths)
-    largest = std::max(largest, has_ending(path, ".html") ? 100 * std::max(shown, texel) * pixels
+    largest = std::max(largest, has_ending(path, ".html")  ? 100 * std::max(shown, texel) * pixels
                                 : has_ending(path, ".exr") ? kKeptOf100 * picture_memory(pipeline, region, planes)
                                                            : kKeptOf100 * texel * pixels);
   return largest / 100;
+}
+
+LightProgram light_program_of(const std::string& name) {
+  if (name != kStandardInputName && names_shipped_model(name)) return shipped_program(name);
+  const Bytes bytes = read_user_file(name, kMaxProgramBytes, "");
+  if (bytes.empty()) throw Error(ErrorKind::bad_input, name, "is empty", "GLSL that defines light(), or SPIR-V");
+  LightProgram program{name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, {}, {}};
+  program.sha256 = sha256_of(program.text);
+  return program;
 }
 
 namespace {
@@ -95,26 +105,24 @@ ProgramParameter parameter_of(const std::string& text) {
   return out;
 }
 
-/// The program of --light-shader; where a pipeline names one already, it must be that.
+/// The program of --light-shader, or a model that the pipeline names. Where the pipeline says which text, it must be
+/// that.
 void set_light_program(const PipelineOptions& options, LightProgram& program) {
-  if (!options.light_shader && !options.light_parameters.empty())
-    throw Error(ErrorKind::usage, "--light-parameter", "there is no light program", "add --light-shader FILE");
-  if (!options.light_shader) {
+  const bool model_of_pipeline = !options.light_shader && program.used() && names_shipped_model(program.file);
+  if (!options.light_shader && !model_of_pipeline) {
+    if (!options.light_parameters.empty())
+      throw Error(ErrorKind::usage, "--light-parameter", "there is no light program", "add --light-shader FILE");
     if (program.used())
       throw Error(ErrorKind::usage, "light_program", "the pipeline names " + program.file + ", whose text is not here",
                   "add --light-shader FILE");
     return;
   }
-  const Bytes bytes = read_user_file(*options.light_shader, kMaxProgramBytes, "");
-  if (bytes.empty())
-    throw Error(ErrorKind::bad_input, *options.light_shader, "is empty", "GLSL that defines light(), or SPIR-V");
-  const std::string expected = program.sha256;
-  program.file = *options.light_shader;
-  program.text = {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-  program.sha256 = sha256_of(program.text);
-  if (!expected.empty() && expected != program.sha256)
-    throw Error(ErrorKind::bad_input, program.file, "is not the light program that the pipeline names",
-                "the file whose SHA-256 is " + expected);
+  LightProgram named = model_of_pipeline ? shipped_program(program.file) : light_program_of(*options.light_shader);
+  if (!program.sha256.empty() && program.sha256 != named.sha256)
+    throw Error(ErrorKind::bad_input, named.file, "is not the light program that the pipeline names",
+                "the file whose SHA-256 is " + program.sha256);
+  named.parameters = std::move(program.parameters);
+  program = std::move(named);
   if (!options.light_parameters.empty()) program.parameters.clear();
   for (const std::string& text : options.light_parameters) program.parameters.push_back(parameter_of(text));
 }

@@ -33,6 +33,9 @@ uint64_t picture_memory(const Pipeline& pipeline, const PictureRegion& region, s
 uint64_t file_memory(const Pipeline& pipeline, const PictureRegion& region, std::span<const std::string> paths,
                      std::span<const std::string> planes);
 
+/// What --light-shader names: a model that ships, or a file of GLSL or SPIR-V. Without parameters.
+LightProgram light_program_of(const std::string& name);
+
 /// The pipeline of all layers, each over the one before: preset, scene file, pipeline file, options. Valid.
 Pipeline pipeline_of(const PipelineOptions& options, const Scene& scene);
 

@@ -1,6 +1,7 @@
 // The tables of commands that tell of scenes and write them for others: info, list, glsl, export.
 #include "cli/command_tables.h"
 #include "cli/option_values.h"
+#include "scenes/light_models/light_models.h"
 
 namespace trueshade {
 namespace {
@@ -33,10 +34,14 @@ CommandTable info_table(InfoOptions& options, InfoTexts& texts) {
 }
 
 CommandTable list_table(ListOptions& options) {
-  CommandTable table{"list", "List scenes, presets, formats, planes and SIMD targets"};
+  CommandTable table{"list", "List scenes, presets, light models, formats, planes and SIMD targets"};
+  OptionRow& model = add_value(table, "MODEL", "MODEL", options.model,
+                               "Say what this light model reads instead: one that ships, or a light program's file");
+  for (const ShippedModel& shipped : shipped_models()) model.known_values.emplace_back(shipped.name);
   table.open_group = "Output";
   add_switch(table, "--json", options.json, "As one JSON document");
   add_quiet(table, options, kOnlyAnswerHelp);
+  table.examples = {{"trueshade list gltf", "What a light model is, its parameters, and the fields that it reads."}};
   table.see_also = {"info"};
   table.finished = [&options]() -> Command { return options; };
   return table;

@@ -1,6 +1,9 @@
 // --light-shader as users meet it: what it draws, what it says, what it refuses.
 #include <fstream>
+#include <nlohmann/json.hpp>
 
+#include "core/sha256.h"
+#include "scenes/light_models/light_models.h"
 #include "tests/catch.hpp"
 #include "tests/cli/run_command.h"
 #include "tests/scratch_folder.h"
@@ -90,4 +93,79 @@ TEST_CASE("A pipeline that names a light program is drawn by that text alone") {
   const Outcome other = with({"--light-shader", "other.glsl"});
   CHECK(other.exit_code == 3);
   CHECK(has(other.err, "SHA-256"));
+}
+
+TEST_CASE("A light model that ships is drawn by its name, and the picture says which text that was") {
+  const std::vector<std::string> frame{"render", "builtin:cornell", "--size", "32x24"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), frame.begin(), frame.end());
+    return run(more);
+  };
+  const ShippedModel& gltf = shipped_model("gltf");
+  write("copy.glsl", std::string(gltf.text));
+  const Outcome named = with({"--light-shader", "gltf", "--json", "-o", "named.png"});
+  CHECK(named.exit_code == 0);
+  CHECK(has(named.out, R"("light_program":{"file":"gltf","sha256":")" + sha256_of(gltf.text) + '"'));
+  CHECK(with({"--light-shader", "copy.glsl", "-o", "copy.png"}).exit_code == 0);
+  CHECK(run({"compare", "named.png", "copy.png"}).exit_code == 0);
+  write("gltf", "vec3 light(Surface s, Light l, View v) { return vec3(0.25); }\n");
+  const Outcome shipped = with({"--light-shader", "gltf", "--hash"});
+  CHECK(shipped.out == with({"--light-shader", "copy.glsl", "--hash"}).out);  // a name without a dot is no file's
+  CHECK(shipped.out != with({"--light-shader", "./gltf", "--hash"}).out);
+  write("of_name.json", R"({"light_program":{"file":"gltf"},"light_volumes":{"point":"range","spot":"range"}})");
+  CHECK(with({"--pipeline", "of_name.json", "--hash"}).out == shipped.out);
+  const Outcome unknown = with({"--light-shader", "glft", "--hash"});
+  CHECK(unknown.exit_code == 2);
+  CHECK(has(unknown.err, "did you mean gltf?"));
+  for (const ShippedModel& model : shipped_models()) CHECK(has(unknown.err, " " + std::string(model.name)));
+  const Outcome lacking = with({"--light-shader", "toon", "--hash"});
+  CHECK(lacking.exit_code == 2);
+  CHECK(has(lacking.err, "parameters.steps"));
+}
+
+TEST_CASE("list names the models that ship, and says of one what it reads, as it says of a file") {
+  using nlohmann::json;
+  const std::string names = run({"list"}).out;
+  const json all = json::parse(run({"list", "--json"}).out);
+  REQUIRE(all.at("light_models").size() == shipped_models().size());
+  for (size_t i = 0; i < shipped_models().size(); ++i) {
+    const ShippedModel& model = shipped_models()[i];
+    CHECK(has(names, "  " + std::string(model.name) + ' '));
+    CHECK(all.at("light_models")[i].at("name") == std::string(model.name));
+    CHECK(all.at("light_models")[i].at("description") == std::string(model.about));
+  }
+  const auto facts = [](const std::string& name) { return json::parse(run({"list", name, "--json"}).out); };
+  const json gltf = facts("gltf"), toon = facts("toon");
+  CHECK(gltf.at("sha256") == sha256_of(shipped_model("gltf").text));
+  CHECK(gltf.at("parameters").empty());
+  CHECK(gltf.at("defines") == json::array({"light", "start"}));
+  CHECK(toon.at("parameters") == json::parse(R"([{"name": "steps", "type": "float"}])"));
+  CHECK(toon.at("defines") == json::array({"light"}));
+  const auto reads = [](const json& of, const char* field) {
+    return std::count(of.at("reads").begin(), of.at("reads").end(), field) == 1;
+  };
+  for (const char* field : {"surface.position", "surface.normal", "surface.albedo", "light.type", "light.color"}) {
+    INFO(field);
+    CHECK(reads(gltf, field));
+    CHECK(reads(toon, field));
+  }
+  CHECK(reads(gltf, "surface.roughness"));
+  CHECK(reads(gltf, "view.eye"));
+  CHECK_FALSE(reads(toon, "surface.roughness"));
+  CHECK_FALSE(reads(toon, "view.eye"));
+  for (const json& field : gltf.at("reads")) {  // fields of the three structures, without components
+    const std::string name = field;
+    CHECK((name.starts_with("surface.") || name.starts_with("light.") || name.starts_with("view.")));
+    CHECK(std::count(name.begin(), name.end(), '.') == 1);
+  }
+  const std::string text = run({"list", "toon"}).out;
+  for (const char* line : {"toon: Cartoons", "\n  steps           float\n", "\n  surface.normal\n", "\n  light\n"})
+    CHECK(has(text, line));
+  write("tinted.glsl",
+        "layout(std140) uniform Parameters { float x; vec3 tint; };\n"
+        "vec3 light(Surface s, Light l, View v) { return x * tint * s.albedo.rgb; }\n");
+  CHECK(facts("tinted.glsl").at("parameters") ==
+        json::parse(R"([{"name": "x", "type": "float"}, {"name": "tint", "type": "vec3"}])"));
+  CHECK(facts("tinted.glsl").at("reads") == json::array({"surface.albedo"}));
+  CHECK(run({"list", "glft"}).exit_code == 2);
 }

@@ -144,7 +144,7 @@ TEST_CASE("Rates, lines and precision of nodes are told") {
     with_line += node.line >= 3 && node.line <= 5;
   }
   INFO(text_of(program));
-  CHECK(counts[int(Rate::surface)] == 12);
+  CHECK(counts[int(Rate::surface)] == 11);
   CHECK(counts[int(Rate::light)] == 2);
   CHECK(counts[int(Rate::constant)] == 1);
   CHECK(precise == 2);

@@ -1,0 +1,54 @@
+#include "scenes/light_models/light_models.h"
+
+#include <array>
+#include <vector>
+
+#include "core/error.h"
+#include "core/likeliest_name.h"
+#include "core/sha256.h"
+#include "scenes/light_models/texts.h"
+
+namespace trueshade {
+namespace {
+
+std::string_view first_line(std::string_view text) {
+  const std::string_view line = text.substr(0, text.find('\n'));
+  return line.substr(line.find_first_not_of("/ "));
+}
+
+constexpr size_t kCount = std::size(kLightModelTexts);
+
+}  // namespace
+
+std::span<const ShippedModel> shipped_models() {
+  static const std::array<ShippedModel, kCount> models = [] {
+    std::array<ShippedModel, kCount> made;
+    for (size_t i = 0; i < kCount; ++i) {
+      const auto& [name, text] = kLightModelTexts[i];
+      made[i] = {name, first_line(text), text};
+    }
+    return made;
+  }();
+  return models;
+}
+
+bool names_shipped_model(std::string_view name) { return name.find_first_of("./") == std::string_view::npos; }
+
+const ShippedModel& shipped_model(std::string_view name) {
+  std::vector<std::string_view> names;
+  std::string all;
+  for (const ShippedModel& model : shipped_models()) {
+    if (model.name == name) return model;
+    names.push_back(model.name);
+    all += ' ' + std::string(model.name);
+  }
+  throw Error(ErrorKind::usage, "'" + std::string(name) + "'", "is no light model that ships",
+              did_you_mean(name, names) + "one of:" + all + "; or a file, whose name has a dot or a slash");
+}
+
+LightProgram shipped_program(std::string_view name) {
+  const ShippedModel& model = shipped_model(name);
+  return {std::string(model.name), std::string(model.text), sha256_of(std::string(model.text)), {}};
+}
+
+}  // namespace trueshade
