@@ -97,8 +97,7 @@ void add_surface(const LightModel& model, const LitPixel& pixel, Account& to) {
 std::optional<size_t> strongest(const LightTotal& total) {
   std::optional<size_t> out;
   for (size_t i = 0; i < total.lights.size(); ++i)
-    if (total.lights[i].fate == LightFate::adds &&
-        (!out || strength(total.lights[i]) > strength(total.lights[*out])))
+    if (total.lights[i].fate == LightFate::adds && (!out || strength(total.lights[i]) > strength(total.lights[*out])))
       out = i;
   return out;
 }
@@ -120,9 +119,8 @@ void add_lists(const LightTotal& total, Account& to) {
   std::vector<int64_t> by_fate[kLightFates];
   for (size_t i = 0; i < total.lights.size(); ++i) by_fate[size_t(total.lights[i].fate)].push_back(int64_t(i));
   to.add("adding", int64_t(by_fate[size_t(LightFate::adds)].size()), "lights that add something");
-  for (const LightFate fate :
-       {LightFate::out_of_reach, LightFate::faces_away, LightFate::outside_cone, LightFate::not_drawn,
-        LightFate::gives_nothing}) {
+  for (const LightFate fate : {LightFate::out_of_reach, LightFate::faces_away, LightFate::outside_cone,
+                               LightFate::not_drawn, LightFate::gives_nothing}) {
     const std::vector<int64_t>& lights = by_fate[size_t(fate)];
     if (lights.empty()) continue;
     to.add(list_name(fate), lights, "indices of lights that add nothing: " + std::string(text(fate)));
@@ -136,7 +134,8 @@ Account lights_account(const ExplainedFrame& frame, const LightTotal& total, Lig
                        Detail detail) {
   const LightModel& model = frame.pipeline.light_model;
   const bool by_program = total.program != nullptr;
-  Account out("lights", "Lights on " + of + (by_program ? " (docs/light_programs.md)" : " (docs/arithmetic.md, sections 8 and 9)"));
+  Account out("lights", "Lights on " + of +
+                            (by_program ? " (docs/light_programs.md)" : " (docs/arithmetic.md, sections 8 and 9)"));
   if (by_program && total.program->is_unlit()) {
     out.add("unlit", total.pixel.albedo, "its albedo R, G, B, A is shown, and the program is not asked");
     return out;
@@ -156,7 +155,9 @@ Account lights_account(const ExplainedFrame& frame, const LightTotal& total, Lig
                                           std::string(text(at.fate)));
     part.add("light", int64_t(i), "index").add("fate", std::string(text(at.fate)), "");
     if (by_program)
-      add_program_light(frame, total, i, detail == Detail::all || i == strongest(total) ? ProgramLines::told : ProgramLines::left_out, detail, part);
+      add_program_light(frame, total, i,
+                        detail == Detail::all || i == strongest(total) ? ProgramLines::told : ProgramLines::left_out,
+                        detail, part);
     else
       add_light(model, row, total.pixel, at, part);
   }

@@ -36,9 +36,9 @@ std::string frame_title(const ExplainedFrame& frame, const PixelHistory& history
   const Pipeline& p = frame.pipeline;
   const LightProgram& program = p.light_program;
   const std::string lights = program.used() ? ", light program " + program.file : ", preset " + p.preset;
-  return frame.scene.spec + lights + ", " + std::string(name_of(p.strategy)) + ", " +
-         std::to_string(p.width) + "x" + std::to_string(p.height) + ", " + std::string(info(p.target).name) +
-         ": pixel " + std::to_string(history.pixel.x) + ',' + std::to_string(p.height - 1 - history.pixel.y);
+  return frame.scene.spec + lights + ", " + std::string(name_of(p.strategy)) + ", " + std::to_string(p.width) + "x" +
+         std::to_string(p.height) + ", " + std::string(info(p.target).name) + ": pixel " +
+         std::to_string(history.pixel.x) + ',' + std::to_string(p.height - 1 - history.pixel.y);
 }
 
 /// What most people ask: what is seen, and which lights make it bright.

@@ -43,7 +43,7 @@ std::string rounding_text(const std::vector<double>& rounding) {
 }
 
 void add_step(const ProgramStep& step, size_t number, Account& to) {
-  constexpr size_t kValues = 6, kRounding = 40, kExpression = 61;  // columns
+  constexpr size_t kValues = 6, kRounding = 42, kExpression = 64;  // columns
   Account& part = to.part("operation", step.expression);
   part.add("number", int64_t(number), "of the step: others are made of #number");
   part.add("line", int64_t(step.line), "of the program's text");
@@ -61,6 +61,14 @@ void add_step(const ProgramStep& step, size_t number, Account& to) {
   line += step.expression;
 }
 
+/// Steps of instructions; where these are many and not all are asked for, of whole expressions.
+ProgramTrace trace_for(Detail detail, const ProgramAtSurface& at, const NodeBits& bits,
+                       std::span<const programs::NodeId> wanted) {
+  ProgramTrace trace = trace_of(at.program(), bits, wanted);
+  if (detail == Detail::all || trace.steps.size() <= kMostSteps) return trace;
+  return trace_of(at.program(), bits, wanted, StepSize::expression);
+}
+
 /// The steps that are told: all, or those that another line reads, the last of them.
 std::vector<size_t> told(const ProgramTrace& trace, Detail detail) {
   std::vector<size_t> out(trace.steps.size());
@@ -75,7 +83,8 @@ std::vector<size_t> told(const ProgramTrace& trace, Detail detail) {
 void add_lines(const ExplainedFrame& frame, const ProgramAtSurface& at, const NodeBits& bits, const char* function,
                int first, int count, Detail detail, Account& to) {
   const programs::Program& program = at.program();
-  const ProgramTrace trace = trace_of(program, bits, std::span(program.output).subspan(size_t(first), size_t(count)));
+  const ProgramTrace trace =
+      trace_for(detail, at, bits, std::span(program.output).subspan(size_t(first), size_t(count)));
   Account& lines = to.part("lines", std::string("Lines that ") + function + "() comes from: steps, values, and what " +
                                         "rounding left, in units of the last place");
   const std::vector<size_t> steps = told(trace, detail);
@@ -114,18 +123,17 @@ void add_program(const ExplainedFrame& frame, const LightTotal& total, Detail de
   const ProgramAtSurface& at = *total.program;
   to.add("program", at.program().name, "SHA-256 of its SPIR-V: " + at.program().sha256);
   to.add("start", total.pixel.start, "what the sum starts from: R, G, B");
-  if (at.program().defines_start)
-    add_lines(frame, at, at.at_sum({}), "start", programs::kStartOutput, 3, detail, to);
+  if (at.program().defines_start) add_lines(frame, at, at.at_sum({}), "start", programs::kStartOutput, 3, detail, to);
 }
 
 void add_program_light(const ExplainedFrame& frame, const LightTotal& total, size_t light, ProgramLines lines,
                        Detail detail, Account& to) {
   const LightAtPixel& at = total.lights[light];
   const LightType type = total.table->row[light].type;
-  if (type == LightType::point || type == LightType::spot)
-    to.add("d", at.d, "distance, scene units");
+  if (type == LightType::point || type == LightType::spot) to.add("d", at.d, "distance, scene units");
   if (at.fate == LightFate::out_of_reach) {
-    to.add("end", std::sqrt(total.table->row[light].cut2), "distance from which the pipeline lets this light add nothing");
+    to.add("end", std::sqrt(total.table->row[light].cut2),
+           "distance from which the pipeline lets this light add nothing");
     return;
   }
   to.add("term", at.term, "what light() gives: R, G, B");
@@ -133,7 +141,8 @@ void add_program_light(const ExplainedFrame& frame, const LightTotal& total, siz
   const bool counts = program.program().defines_reaches;
   if (!counts && lines == ProgramLines::left_out) return;
   const NodeBits bits = program.at_light(light);
-  if (counts) to.add("reaches", bits[program.program().output[programs::kReachesOutput]] != 0, "counted by light.count");
+  if (counts)
+    to.add("reaches", bits[program.program().output[programs::kReachesOutput]] != 0, "counted by light.count");
   if (lines == ProgramLines::left_out) return;
   add_lines(frame, program, bits, "light", programs::kLightOutput, 3, detail, to);
   if (counts) add_lines(frame, program, bits, "reaches", programs::kReachesOutput, 1, detail, to);

@@ -23,7 +23,7 @@ struct ExplainedFrame {
   GeometryState volume_state;     ///< that light geometry is drawn with
   WindowTransform volume_window;  ///< of it
   BlendTarget target;
-  TransparencyMode transparency;  ///< none too where the scene has no transparent surface
+  TransparencyMode transparency;                ///< none too where the scene has no transparent surface
   std::shared_ptr<const ProgramFrame> program;  ///< what the lights add in place of a light model; null: none
 
   ExplainedFrame(const Scene& of_scene, const Pipeline& of_pipeline);

@@ -21,12 +21,12 @@ uint32_t of_surface(std::string_view name, const SurfacePlanes& s, WindowPixel p
   if (name == "surface.material") return s.material;
   if (name == "surface.pixel_x") return uint32_t(pixel.x);
   if (name == "surface.pixel_y") return uint32_t(pixel.y);
-  const float value = is("surface.position")     ? s.position[c]
-                      : is("surface.normal")     ? s.normal[c]
-                      : is("surface.albedo")     ? s.albedo[c]
-                      : is("surface.specular")   ? s.specular[c]
-                      : is("surface.emission")   ? s.emission[c]
-                      : is("surface.uv")         ? s.uv[c]
+  const float value = is("surface.position")        ? s.position[c]
+                      : is("surface.normal")        ? s.normal[c]
+                      : is("surface.albedo")        ? s.albedo[c]
+                      : is("surface.specular")      ? s.specular[c]
+                      : is("surface.emission")      ? s.emission[c]
+                      : is("surface.uv")            ? s.uv[c]
                       : name == "surface.shininess" ? s.specular[3]
                       : name == "surface.metallic"  ? s.specular[0]
                       : name == "surface.roughness" ? s.specular[1]
@@ -72,9 +72,8 @@ void ProgramAtSurface::compute(std::initializer_list<Rate> rates, NodeBits& bits
 
 NodeBits ProgramAtSurface::at_light(size_t light) const {
   NodeBits bits = of_surface_;
-  compute({Rate::light, Rate::pair}, bits, [&](uint32_t input) {
-    return std::bit_cast<uint32_t>(frame_->lights().planes()[place_[input]][light]);
-  });
+  compute({Rate::light, Rate::pair}, bits,
+          [&](uint32_t input) { return std::bit_cast<uint32_t>(frame_->lights().planes()[place_[input]][light]); });
   return bits;
 }
 

@@ -16,8 +16,8 @@ using programs::ProgramNode;
 using programs::Type;
 
 constexpr size_t kMostComponents = 4;
-constexpr char kName = '\1';              // in the text of an expression: where the name of an operand stands
-constexpr int kMostInside = 7;            // operations of an expression beside its last: a product of vec4 and a column
+constexpr char kName = '\1';     // in the text of an expression: where the name of an operand stands
+constexpr int kMostInside = 12;  // operations of an expression beside its last
 constexpr std::string_view kNotTaken = "...";
 
 /// How a value is named where others are made of it: `surface.normal` and 2, `#12` and 0.
@@ -81,8 +81,14 @@ double in_ulp(double exact, float value) {
 
 class Tracer {
  public:
-  Tracer(const Program& program, const NodeBits& bits, std::span<const NodeId> wanted)
-      : program_(program), bits_(bits), wanted_(wanted), uses_(size()), inside_(size()), step_(size()) {}
+  Tracer(const Program& program, const NodeBits& bits, std::span<const NodeId> wanted, StepSize of_step)
+      : program_(program),
+        bits_(bits),
+        wanted_(wanted),
+        of_step_(of_step),
+        uses_(size()),
+        inside_(size()),
+        step_(size()) {}
 
   ProgramTrace run() {
     count_uses();
@@ -114,12 +120,13 @@ class Tracer {
   bool is_named(NodeId id) const { return node(id).op == Op::constant || node(id).op == Op::input; }
   bool is_step(NodeId id) const { return uses_[id] > 0 && !is_named(id) && !inside_[id]; }
 
-  /// The operands that a value comes from: of a choice the condition and the side that is taken, of `and` and `or` those
-  /// up to the first that decides.
+  /// The operands that a value comes from: of a choice the condition and the side that is taken, of `and` and `or`
+  /// those up to the first that decides.
   std::vector<NodeId> followed(NodeId id) const {
     const ProgramNode& n = node(id);
     if (n.op == Op::select) return {n.operand[0], n.operand[bits_[n.operand[0]] != 0 ? 1 : 2]};
-    const bool decided = (n.op == Op::b_and && bits_[n.operand[0]] == 0) || (n.op == Op::b_or && bits_[n.operand[0]] != 0);
+    const bool decided =
+        (n.op == Op::b_and && bits_[n.operand[0]] == 0) || (n.op == Op::b_or && bits_[n.operand[0]] != 0);
     if (decided) return {n.operand[0]};
     return {n.operands().begin(), n.operands().end()};
   }
@@ -140,7 +147,9 @@ class Tracer {
         const ProgramNode& of = node(operand);
         if (uses_[operand] != 1 || is_named(operand) || is_wanted(operand) || of.line != node(id).line) continue;
         const bool same_step = of.origin != 0 && of.origin == node(id).origin;
-        if ((!same_step && rounds(of.op)) || count[id] + count[operand] + 1 > kMostInside) continue;
+        if ((of_step_ == StepSize::instruction && !same_step && rounds(of.op)) ||
+            count[id] + count[operand] + 1 > kMostInside)
+          continue;
         inside_[operand] = true;
         count[id] += count[operand] + 1;
       }
@@ -201,15 +210,14 @@ class Tracer {
     out.words = written(n.op, words);
     const double exact = of_numbers ? exact_result(n.op, numbers) : std::numeric_limits<double>::quiet_NaN();
     const bool known = rounds(n.op) || n.op == Op::f_neg || n.op == Op::f_abs || n.op == Op::f_min || n.op == Op::f_max;
-    if (!of_numbers || !known) out.rounds = false;  // what it makes is exact, whatever it is made of
+    if (!of_numbers || !known) out.rounds = false;  // its own value is taken for exact
     out.exact = known ? exact : number_of(n.type, bits_[id]);
     return out;
   }
 
   bool reads(NodeId id, const std::vector<NodeId>& nodes) const {
     for (const NodeId operand : node(id).operands())
-      if (std::find(nodes.begin(), nodes.end(), operand) != nodes.end() ||
-          (inside_[operand] && reads(operand, nodes)))
+      if (std::find(nodes.begin(), nodes.end(), operand) != nodes.end() || (inside_[operand] && reads(operand, nodes)))
         return true;
     return false;
   }
@@ -268,6 +276,7 @@ class Tracer {
   const Program& program_;
   const NodeBits& bits_;
   const std::span<const NodeId> wanted_;
+  const StepSize of_step_;
   std::vector<int> uses_;
   std::vector<bool> inside_;
   std::vector<Place> step_;
@@ -276,8 +285,8 @@ class Tracer {
 
 }  // namespace
 
-ProgramTrace trace_of(const Program& program, const NodeBits& bits, std::span<const NodeId> wanted) {
-  return Tracer(program, bits, wanted).run();
+ProgramTrace trace_of(const Program& program, const NodeBits& bits, std::span<const NodeId> wanted, StepSize size) {
+  return Tracer(program, bits, wanted, size).run();
 }
 
 }  // namespace trueshade

@@ -63,8 +63,7 @@ Expression written(Op op, std::span<const Expression> operands) {
     // Sums and products of several are read from the left; of comparisons none is another's operand.
     const bool chains = of.binding == Binding::sum || of.binding == Binding::product;
     const Binding left = chains ? of.binding : tighter(of.binding);
-    return {operand_text(operands[0], left) + std::string(of.sign) +
-                operand_text(operands[1], tighter(of.binding)),
+    return {operand_text(operands[0], left) + std::string(of.sign) + operand_text(operands[1], tighter(of.binding)),
             of.binding};
   }
   if (op == Op::f_neg) return {'-' + operand_text(operands[0], Binding::whole), Binding::product};

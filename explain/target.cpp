@@ -176,7 +176,8 @@ LitSurfaces lit_surfaces(const ExplainedFrame& frame, const PixelSurfaces& surfa
   for (size_t i = 0; i < out.geometry.size() && surfaces.covered; ++i)
     if (out.geometry[i] == 0 && out.visible.lights[i].fate == LightFate::adds)
       out.visible.lights[i].fate = LightFate::not_drawn;
-  for (const SurfacePlanes& tied : surfaces.tied) out.tied.push_back(lit(frame, model, frame.lights, tied, surfaces.pixel));
+  for (const SurfacePlanes& tied : surfaces.tied)
+    out.tied.push_back(lit(frame, model, frame.lights, tied, surfaces.pixel));
   for (const SurfacePlanes& glass : surfaces.glass)
     out.glass.push_back(lit(frame, model_of_glass(frame), frame.glass_lights, glass, surfaces.pixel));
   return out;

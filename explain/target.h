@@ -24,7 +24,7 @@ struct PixelSurfaces {
 
 /// The lights on one surface.
 struct LightTotal {
-  LitPixel pixel;  ///< where a program lights it: what the sum starts from, and the planes
+  LitPixel pixel;                     ///< where a program lights it: what the sum starts from, and the planes
   const LightTable* table = nullptr;  ///< whose rows the lights are
   std::vector<LightAtPixel> lights;   ///< by index in the scene
   std::array<float, 4> sum{};         ///< of all, as the target receives it
