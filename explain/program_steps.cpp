@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "explain/step_operations.h"
 
@@ -53,8 +54,10 @@ std::string joined(std::span<const ValueName> names) {
 
 AccountValue value_of(Type type, uint32_t bits) {
   switch (type) {
-    case Type::f32:
-      return std::bit_cast<float>(bits);
+    case Type::f32: {
+      const float value = std::bit_cast<float>(bits);
+      return value == value ? value : std::numeric_limits<float>::quiet_NaN();  // its sign is none of the renderer's
+    }
     case Type::i32:
       return int64_t(int32_t(bits));
     case Type::u32:

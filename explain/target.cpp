@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "shading/blend/clear_color.h"
 
@@ -34,12 +35,16 @@ struct Drawing {
   }
 };
 
+/// A NaN is one pattern, whatever it came from.
+float one_nan(float x) { return x == x ? x : std::numeric_limits<float>::quiet_NaN(); }
+
 /// What the target receives of a sum.
 std::array<float, 4> received(const LightModel& model, const LightTotal& total, const std::array<float, 3>& sum) {
   if (!total.program) return received(model, total.pixel, sum);
   if (total.program->is_unlit()) return total.pixel.albedo;
   auto out = total.program->output<4>(total.program->at_sum(sum), programs::kFinishOutput);
   if (total.takes_albedo_alpha) out[3] = total.pixel.albedo[3];
+  for (float& value : out) value = one_nan(value);
   return out;
 }
 
@@ -52,6 +57,7 @@ LightAtPixel light_by_program(const LightTotal& total, const LightRow& light, si
   at.d = std::sqrt(at.d2);
   if (has_place && !(at.d2 < light.cut2)) return at.fate = LightFate::out_of_reach, at;
   at.term = total.program->output<3>(total.program->at_light(index), programs::kLightOutput);
+  for (float& value : at.term) value = one_nan(value);
   if (at.term == std::array<float, 3>{}) at.fate = LightFate::gives_nothing;
   return at;
 }
