@@ -230,8 +230,8 @@ class Tracer {
     if (out_.steps.empty()) return false;
     const std::vector<NodeId>& nodes = out_.steps.back().nodes;
     const ProgramNode &first = node(nodes.front()), &n = node(id);
-    return nodes.size() < kMostComponents && n.origin != 0 && n.origin == first.origin && n.line == first.line &&
-           n.op == first.op && n.type == first.type && !reads(id, nodes) &&
+    return nodes.size() < kMostComponents && (n.origin != 0 || n.op == Op::select) && n.origin == first.origin &&
+           n.line == first.line && n.op == first.op && n.type == first.type && !reads(id, nodes) &&
            expression(id).words.text == expression(nodes.front()).words.text;
   }
 

@@ -29,8 +29,8 @@ class Comparison {
  public:
   Comparison(const Scene& scene, const Pipeline& pipeline) : explained_(scene, pipeline) {
     std::vector<std::string> planes = {"depth", "position", "normal", "albedo", "uv", "id.object"};
-    if (reads_specular_plane(pipeline.light_model)) planes.push_back("specular");
-    if (pipeline.light_model.emission) planes.push_back("emission");
+    if (reads_specular_plane(explained_.pipeline.light_model)) planes.push_back("specular");
+    if (explained_.pipeline.light_model.emission) planes.push_back("emission");
     frame_ = render_frame(scene, explained_.pipeline, {}, planes);
   }
 
