@@ -190,12 +190,14 @@ CommandTable explain_table(ExplainOptions& options, ExplainTexts& texts) {
             "would have made it");
   table.open_group = "Output";
   add_switch(table, "--all", options.all,
-             "Print every covering triangle, every light and every draw, also those that change nothing");
+             "Print every covering triangle, every light and every draw, also those that change nothing, and every step of "
+             "a light program");
   add_switch(table, "--json", options.json, "Print all of it as one JSON document");
   add_quiet(table, options, "Say neither notes nor progress");
   add_size(table, texts.size);
   add_time(table, texts.time);
   add_layers(table, options);
+  add_light_program(table, options);
   add_target(table, texts.target);
   add_strategy(table, texts.strategy);
   add_profile(table, texts.profile);

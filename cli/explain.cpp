@@ -38,6 +38,7 @@ std::vector<std::string> planes_to_judge(const ExplainOptions& options, const Pi
   std::vector<std::string> planes = {"depth", "position", "normal", "albedo", "uv", "id.object"};
   if (reads_specular_plane(pipeline.light_model)) planes.emplace_back("specular");
   if (pipeline.light_model.emission) planes.emplace_back("emission");
+  if (pipeline.light_program.used()) planes.emplace_back("id.material");
   return planes;
 }
 
@@ -62,7 +63,7 @@ struct Question {
  private:
   Frame drawn() const {
     ProgressBar bar("rendering", "tiles");
-    return render_frame(scene, frame.pipeline, {}, planes_to_judge(options, pipeline),
+    return render_frame(scene, frame.pipeline, {}, planes_to_judge(options, frame.pipeline),
                         [&bar](int done, int total) { bar.show(done, total); });
   }
 };
@@ -121,6 +122,10 @@ std::string record_of(const std::string& path) {
 
 /// What OpenGL allows the pixel to hold, and the class of what it holds, which comes back.
 oracle::PixelClass add_legal(const Question& q, const Image& given, double difference, Account& out) {
+  if (q.frame.program && q.frame.transparency == TransparencyMode::after_lights) {
+    out.add("class", "not judged", "the judge does not know transparent surfaces that a light program lights");
+    return difference == 0.0 ? oracle::PixelClass::exact : oracle::PixelClass::violation;
+  }
   oracle::Capture capture;
   capture.color = q.reference.color;
   for (int c = 0; c < info(given.format).channels; ++c) capture.color.set_code(q.x, q.y, c, given.code(0, 0, c));

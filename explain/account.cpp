@@ -55,6 +55,10 @@ void write(const Account& account, size_t depth, std::string& out) {
   constexpr size_t kName = 11, kValues = 42;  // characters; a longer one pushes the next column
   const std::string indent(2 * depth, ' ');
   if (depth == 1) out += '\n';
+  if (!account.shown.empty()) {
+    out += indent + printable(account.shown, Lines::one) + '\n';
+    return;
+  }
   out += indent + printable(account.title, Lines::one) + '\n';
   for (const Quantity& quantity : account.quantities) {
     std::string line = indent + "  " + quantity.name;

@@ -29,6 +29,7 @@ struct Account {
   std::string title;  ///< for people
   std::vector<Quantity> quantities;
   std::vector<Account> parts;
+  std::string shown = {};  ///< for people, one line in place of title, quantities and parts
 
   Account() = default;
   Account(std::string of_key, std::string of_title) : key(std::move(of_key)), title(std::move(of_title)) {}

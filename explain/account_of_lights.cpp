@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "explain/account_parts.h"
 #include "shading/light/power.h"
@@ -32,6 +33,8 @@ const char* list_name(LightFate fate) {
       return "behind";
     case LightFate::outside_cone:
       return "outside_cone";
+    case LightFate::gives_nothing:
+      return "gives_nothing";
     default:
       return "not_drawn";
   }
@@ -80,6 +83,25 @@ void add_light(const LightModel& model, const LightRow& row, const LitPixel& pix
   to.add("term", at.term, at.fate == LightFate::adds ? "what the light adds: R, G, B" : "what it would add: R, G, B");
 }
 
+/// What the lights of a model read.
+void add_surface(const LightModel& model, const LitPixel& pixel, Account& to) {
+  to.add("N", pixel.normal, model.renormalize ? "the normal, made unit" : "the normal as it is read");
+  to.add("V", pixel.viewer, "to the viewer");
+  to.add("albedo", pixel.albedo, "R, G, B, A");
+  if (model.specular != Specular::none)
+    to.add("ks", pixel.specular, "specular colour").add("shininess", pixel.shininess, "");
+  to.add("start", pixel.start, "what the sum starts from: emission and ambient light of the scene");
+}
+
+/// The light that adds most; none where no light adds something.
+std::optional<size_t> strongest(const LightTotal& total) {
+  std::optional<size_t> out;
+  for (size_t i = 0; i < total.lights.size(); ++i)
+    if (total.lights[i].fate == LightFate::adds && (!out || strength(total.lights[i]) > strength(total.lights[*out])))
+      out = i;
+  return out;
+}
+
 /// The lights that are parts: all, or those that add most, in the order of their indices.
 std::vector<size_t> listed(const LightTotal& total, Detail detail) {
   std::vector<size_t> out;
@@ -97,8 +119,8 @@ void add_lists(const LightTotal& total, Account& to) {
   std::vector<int64_t> by_fate[kLightFates];
   for (size_t i = 0; i < total.lights.size(); ++i) by_fate[size_t(total.lights[i].fate)].push_back(int64_t(i));
   to.add("adding", int64_t(by_fate[size_t(LightFate::adds)].size()), "lights that add something");
-  for (const LightFate fate :
-       {LightFate::out_of_reach, LightFate::faces_away, LightFate::outside_cone, LightFate::not_drawn}) {
+  for (const LightFate fate : {LightFate::out_of_reach, LightFate::faces_away, LightFate::outside_cone,
+                               LightFate::not_drawn, LightFate::gives_nothing}) {
     const std::vector<int64_t>& lights = by_fate[size_t(fate)];
     if (lights.empty()) continue;
     to.add(list_name(fate), lights, "indices of lights that add nothing: " + std::string(text(fate)));
@@ -111,14 +133,17 @@ void add_lists(const LightTotal& total, Account& to) {
 Account lights_account(const ExplainedFrame& frame, const LightTotal& total, LightsReach reach, const std::string& of,
                        Detail detail) {
   const LightModel& model = frame.pipeline.light_model;
-  Account out("lights", "Lights on " + of + " (docs/arithmetic.md, sections 8 and 9)");
-  const LitPixel& pixel = total.pixel;
-  out.add("N", pixel.normal, model.renormalize ? "the normal, made unit" : "the normal as it is read");
-  out.add("V", pixel.viewer, "to the viewer");
-  out.add("albedo", pixel.albedo, "R, G, B, A");
-  if (model.specular != Specular::none)
-    out.add("ks", pixel.specular, "specular colour").add("shininess", pixel.shininess, "");
-  out.add("start", pixel.start, "what the sum starts from: emission and ambient light of the scene");
+  const bool by_program = total.program != nullptr;
+  Account out("lights", "Lights on " + of +
+                            (by_program ? " (docs/light_programs.md)" : " (docs/arithmetic.md, sections 8 and 9)"));
+  if (by_program && total.program->is_unlit()) {
+    out.add("unlit", total.pixel.albedo, "its albedo R, G, B, A is shown, and the program is not asked");
+    return out;
+  }
+  if (by_program)
+    add_program(frame, total, detail, out);
+  else
+    add_surface(model, total.pixel, out);
   add_lists(total, out);
   const std::vector<size_t> shown = listed(total, detail);
   if (detail == Detail::usual && shown.size() == kMostListed)
@@ -129,11 +154,17 @@ Account lights_account(const ExplainedFrame& frame, const LightTotal& total, Lig
     Account& part = out.part("light", "light " + std::to_string(i) + ", " + std::string(type_name(row.type)) + ": " +
                                           std::string(text(at.fate)));
     part.add("light", int64_t(i), "index").add("fate", std::string(text(at.fate)), "");
-    add_light(model, row, pixel, at, part);
+    if (by_program)
+      add_program_light(frame, total, i,
+                        detail == Detail::all || i == strongest(total) ? ProgramLines::told : ProgramLines::left_out,
+                        detail, part);
+    else
+      add_light(model, row, total.pixel, at, part);
   }
-  if (reach == LightsReach::as_a_sum)
-    out.part("sum", "The sum, lights added in the order of their indices")
-        .add("sum", total.sum, "R, G, B, A as the target receives them");
+  if (reach == LightsReach::one_by_one) return out;
+  Account& sum = out.part("sum", "The sum, lights added in the order of their indices");
+  if (by_program) add_program_sum(frame, total, detail, sum);
+  sum.add("sum", total.sum, "R, G, B, A as the target receives them");
   return out;
 }
 

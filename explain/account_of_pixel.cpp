@@ -34,9 +34,11 @@ Account draws_account(const std::vector<TargetDraw>& draws, const BlendTarget& t
 
 std::string frame_title(const ExplainedFrame& frame, const PixelHistory& history) {
   const Pipeline& p = frame.pipeline;
-  return frame.scene.spec + ", preset " + p.preset + ", " + std::string(name_of(p.strategy)) + ", " +
-         std::to_string(p.width) + "x" + std::to_string(p.height) + ", " + std::string(info(p.target).name) +
-         ": pixel " + std::to_string(history.pixel.x) + ',' + std::to_string(p.height - 1 - history.pixel.y);
+  const LightProgram& program = p.light_program;
+  const std::string lights = program.used() ? ", light program " + program.file : ", preset " + p.preset;
+  return frame.scene.spec + lights + ", " + std::string(name_of(p.strategy)) + ", " + std::to_string(p.width) + "x" +
+         std::to_string(p.height) + ", " + std::string(info(p.target).name) + ": pixel " +
+         std::to_string(history.pixel.x) + ',' + std::to_string(p.height - 1 - history.pixel.y);
 }
 
 /// What most people ask: what is seen, and which lights make it bright.

@@ -9,7 +9,10 @@ void add_planes(const SurfacePlanes& planes, const LightModel& model, Account& t
   to.add("normal", planes.normal, "world");
   to.add("albedo", planes.albedo, "linear R, G, B, A");
   to.add("uv", planes.uv, "texture coordinates of the first set");
-  if (reads_specular_plane(model)) to.add("specular", planes.specular, "specular R, G, B and shininess");
+  if (model.keeps_metals)
+    to.add("metals", std::array{planes.specular[0], planes.specular[1]}, "metallic and roughness");
+  else if (reads_specular_plane(model))
+    to.add("specular", planes.specular, "specular R, G, B and shininess");
   if (model.emission)
     to.add("emission", planes.emission, "emission R, G, B and the share of ambient light that arrives");
 }

@@ -25,6 +25,16 @@ enum class LightsReach : uint8_t { as_a_sum, one_by_one };
 Account lights_account(const ExplainedFrame& frame, const LightTotal& total, LightsReach reach, const std::string& of,
                        Detail detail);
 
+/// What a light program makes of a surface before its lights, of one of them, and of their sum
+/// (account_of_program.cpp).
+///   lines: whether every line of the program that contributes is told, with its steps; `usual` detail leaves out steps
+///          that only their own line reads where there are many
+enum class ProgramLines : uint8_t { left_out, told };
+void add_program(const ExplainedFrame& frame, const LightTotal& total, Detail detail, Account& to);
+void add_program_light(const ExplainedFrame& frame, const LightTotal& total, size_t light, ProgramLines lines,
+                       Detail detail, Account& to);
+void add_program_sum(const ExplainedFrame& frame, const LightTotal& total, Detail detail, Account& to);
+
 /// GL's name of a depth function.
 std::string_view depth_func_name(DepthFunc func);
 

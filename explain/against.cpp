@@ -122,6 +122,9 @@ class Search {
 
   void try_models() {
     if (!surfaces_.covered) return;
+    try_model("light extents not applied",
+              [](Pipeline& p) { p.light_volumes.point = p.light_volumes.spot = LightExtent::unbounded; });
+    if (frame_.program) return;
     const LightModel& model = frame_.pipeline.light_model;
     try_model(model.renormalize ? "the normal used as it is stored" : "the normal made unit",
               [](Pipeline& p) { p.light_model.renormalize = !p.light_model.renormalize; });
@@ -134,8 +137,6 @@ class Search {
     try_model("spot lights without their cones", [](Pipeline& p) { p.light_model.cone = Cone::none; });
     try_model("lights without falloff", [](Pipeline& p) { p.light_model.falloff = Falloff::none; });
     try_model("falloff inverse_square", [](Pipeline& p) { p.light_model.falloff = Falloff::inverse_square; });
-    try_model("light extents not applied",
-              [](Pipeline& p) { p.light_volumes.point = p.light_volumes.spot = LightExtent::unbounded; });
   }
 
   /// The whole pixel under another pipeline.
@@ -153,6 +154,7 @@ class Search {
     for (size_t i = 0; i < std::size(kStrategyNames); ++i) {
       Pipeline changed = frame_.pipeline;
       changed.strategy = Strategy(i);
+      if (frame_.program && blends_lights(changed.strategy)) continue;
       try_pipeline("the strategy " + std::string(kStrategyNames[i]), changed);
     }
     for (const Preset& preset : presets()) try_pipeline("the preset " + std::string(preset.name), preset.pipeline);

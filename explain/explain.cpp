@@ -90,6 +90,7 @@ void tint_albedo(const ExplainedFrame& frame, const GBufferState& planes, PixelH
 
 PixelSurfaces surfaces_to_light(const ExplainedFrame& frame, const PixelHistory& history) {
   PixelSurfaces out;
+  out.pixel = history.pixel;
   out.covered = history.visible.has_value();
   out.visible = history.surface.read;
   for (const PixelSurface& tied : history.tied) out.tied.push_back(tied.read);

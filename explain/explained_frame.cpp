@@ -2,6 +2,7 @@
 
 #include "core/fp_env.h"
 #include "raster/light_geometry/light_outlines.h"
+#include "scenes/pipeline/program_inputs.h"
 #include "scenes/pipeline/transparency.h"
 
 namespace trueshade {
@@ -10,7 +11,7 @@ namespace {
 Pipeline of_target(Pipeline pipeline) {
   pipeline.post = {};
   pipeline.view = ImageView::lit;
-  return pipeline;
+  return with_planes_of_program(pipeline);
 }
 
 LightTable bounded_table(const Scene& scene, const Pipeline& pipeline, bool draws_meshes) {
@@ -32,7 +33,8 @@ ExplainedFrame::ExplainedFrame(const Scene& of_scene, const Pipeline& of_pipelin
       volume_window(window_transform(volume_state, pipeline.width, pipeline.height, pipeline.profile)),
       target{pipeline.target, pipeline.profile, pipeline.gbuffer.half_round},
       transparency(draws_transparent(scene, pipeline) ? pipeline.transparency.mode : TransparencyMode::none) {
-  require_no_light_program(pipeline, "explain");
+  require_summed_lights(pipeline);
+  if (pipeline.light_program.used()) program = std::make_shared<ProgramFrame>(scene, pipeline);
 }
 
 }  // namespace trueshade

@@ -1,5 +1,5 @@
 #pragma once
-#include <span>
+#include <memory>
 
 #include "raster/view.h"
 #include "scenes/pipeline/light_mesh.h"
@@ -7,6 +7,7 @@
 #include "scenes/scene.h"
 #include "shading/blend/blend.h"
 #include "shading/light/light_table.h"
+#include "shading/program/program_frame.h"
 
 namespace trueshade {
 
@@ -22,7 +23,8 @@ struct ExplainedFrame {
   GeometryState volume_state;     ///< that light geometry is drawn with
   WindowTransform volume_window;  ///< of it
   BlendTarget target;
-  TransparencyMode transparency;  ///< none too where the scene has no transparent surface
+  TransparencyMode transparency;                ///< none too where the scene has no transparent surface
+  std::shared_ptr<const ProgramFrame> program;  ///< what the lights add in place of a light model; null: none
 
   ExplainedFrame(const Scene& of_scene, const Pipeline& of_pipeline);
 };

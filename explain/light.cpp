@@ -155,6 +155,8 @@ std::string_view text(LightFate fate) {
       return "outside the cone";
     case LightFate::not_drawn:
       return "its geometry is not drawn here";
+    case LightFate::gives_nothing:
+      return "the program gives 0";
   }
   return {};  // unreachable: every enumerator returns above
 }

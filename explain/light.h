@@ -14,9 +14,10 @@ enum class LightFate : uint8_t {
   out_of_reach,  ///< the squared distance is not below the falloff's or the extent's end, or not finite
   faces_away,    ///< N . L is not above 0, and the model adds nothing there
   outside_cone,
-  not_drawn  ///< its geometry does not cover the pixel, or is culled there
+  not_drawn,     ///< its geometry does not cover the pixel, or is culled there
+  gives_nothing  ///< the light program makes 0 of it
 };
-inline constexpr size_t kLightFates = 5;
+inline constexpr size_t kLightFates = 6;
 std::string_view text(LightFate fate);
 
 /// What a pixel is lit with beside its lights: what they all read. docs/arithmetic.md section 8.

@@ -120,6 +120,11 @@ void apply_values(const MaterialValues& m, const LightModel& model, const std::v
   }
   if (maps_metals(model)) {
     const auto* const map = texel_of(lookups, "metallic-roughness");
+    if (model.keeps_metals) {
+      out.specular = {map != nullptr ? m.metallic * (*map)[2] : m.metallic,
+                      map != nullptr ? m.roughness * (*map)[1] : m.roughness, 0.0f, 0.0f};
+      return;
+    }
     const float metallic = map != nullptr ? m.metallic * (*map)[2] : m.metallic, rest = 1.0f - metallic;
     out.specular[3] = map != nullptr ? shininess_of_roughness(m.roughness * (*map)[1]) : m.specular[3];
     for (size_t c = 0; c < 3; ++c) {
@@ -182,6 +187,7 @@ SurfacePlanes read_planes(const ExplainedFrame& frame, const SurfacePlanes& comp
   out.uv = read(computed.uv, planes.uv.format);
   out.specular = read(computed.specular, planes.specular);
   out.emission = read(computed.emission, planes.emission);
+  out.object = computed.object, out.material = computed.material;
   return out;
 }
 
@@ -229,6 +235,7 @@ PixelSurface surface_of(const ExplainedFrame& frame, const PixelFragment& fragme
   interpolate(frame, fragment, planes, out);
   if (planes.position_from_depth) out.computed.position = position_from_depth(frame, fragment.depth, pixel);
   const uint32_t material = frame.scene.instances[fragment.instance].material;
+  out.computed.object = fragment.instance + 1, out.computed.material = material + 1;
   const glm::vec4& base = frame.scene.materials[material].base_color;
   for (size_t c = 0; c < 4; ++c) out.computed.albedo[c] = out.computed.albedo[c] * base[int(c)];
   if (!frame.view.materials.empty())

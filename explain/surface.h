@@ -21,8 +21,9 @@ struct SurfacePlanes {
   std::array<float, 3> position{}, normal{};
   std::array<float, 4> albedo{};
   std::array<float, 2> uv{};
-  std::array<float, 4> specular{};  ///< colour and shininess
-  std::array<float, 4> emission{};  ///< and the share of ambient light that arrives
+  std::array<float, 4> specular{};    ///< colour and shininess; or metallic and roughness, for a light program
+  std::array<float, 4> emission{};    ///< and the share of ambient light that arrives
+  uint32_t object = 0, material = 0;  ///< counted from 1; 0: none
 };
 
 /// The surface of a fragment.

@@ -1,6 +1,8 @@
 #include "explain/target.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "shading/blend/clear_color.h"
 
@@ -33,26 +35,66 @@ struct Drawing {
   }
 };
 
-LightTotal lit(const LightModel& model, const LightTable& table, const SurfacePlanes& surface) {
-  LightTotal out{lit_pixel(model, table, surface), &table, {}, {}};
-  std::array<float, 3> sum = out.pixel.start;
-  for (const LightRow& row : table.row) {
-    out.lights.push_back(light_at(model, row, out.pixel));
-    if (out.lights.back().fate != LightFate::adds) continue;
-    for (size_t k = 0; k < 3; ++k) sum[k] = sum[k] + out.lights.back().term[k];
-  }
-  out.sum = received(model, out.pixel, sum);
+/// A NaN is one pattern, whatever it came from.
+float one_nan(float x) { return x == x ? x : std::numeric_limits<float>::quiet_NaN(); }
+
+/// What the target receives of a sum.
+std::array<float, 4> received(const LightModel& model, const LightTotal& total, const std::array<float, 3>& sum) {
+  if (!total.program) return received(model, total.pixel, sum);
+  if (total.program->is_unlit()) return total.pixel.albedo;
+  auto out = total.program->output<4>(total.program->at_sum(sum), programs::kFinishOutput);
+  if (total.takes_albedo_alpha) out[3] = total.pixel.albedo[3];
+  for (float& value : out) value = one_nan(value);
+  return out;
+}
+
+/// What a program makes of a light. A light with a place ends where its extent does.
+LightAtPixel light_by_program(const LightTotal& total, const LightRow& light, size_t index) {
+  LightAtPixel at;
+  const bool has_place = light.type == LightType::point || light.type == LightType::spot;
+  for (size_t k = 0; k < 3 && has_place; ++k) at.D[k] = light.position[k] - total.pixel.position[k];
+  at.d2 = (at.D[0] * at.D[0] + at.D[1] * at.D[1]) + at.D[2] * at.D[2];
+  at.d = std::sqrt(at.d2);
+  if (has_place && !(at.d2 < light.cut2)) return at.fate = LightFate::out_of_reach, at;
+  at.term = total.program->output<3>(total.program->at_light(index), programs::kLightOutput);
+  for (float& value : at.term) value = one_nan(value);
+  if (at.term == std::array<float, 3>{}) at.fate = LightFate::gives_nothing;
+  return at;
+}
+
+LightTotal lit_by_program(const ExplainedFrame& frame, const LightModel& model, const LightTable& table,
+                          const SurfacePlanes& surface, WindowPixel pixel) {
+  LightTotal out;
+  out.table = &table;
+  out.program = std::make_shared<ProgramAtSurface>(frame.program, surface, pixel);
+  out.takes_albedo_alpha = model.alpha_from_albedo && !out.program->program().defines_finish;
+  out.pixel.position = surface.position, out.pixel.normal = surface.normal, out.pixel.albedo = surface.albedo;
+  out.pixel.start = out.program->start();
+  if (!out.program->is_unlit())
+    for (size_t i = 0; i < table.size(); ++i) out.lights.push_back(light_by_program(out, table.row[i], i));
   return out;
 }
 
 /// The sum of the lights, each as often as it counts.
 std::array<float, 4> sum_of(const LightModel& model, const LightTotal& total, LightTimes times) {
-  if (times.times.empty()) return total.sum;
   std::array<float, 3> sum = total.pixel.start;
   for (size_t i = 0; i < total.lights.size(); ++i)
     for (int n = total.lights[i].fate == LightFate::adds ? times[i] : 0; n > 0; --n)
       for (size_t k = 0; k < 3; ++k) sum[k] = sum[k] + total.lights[i].term[k];
-  return received(model, total.pixel, sum);
+  return received(model, total, sum);
+}
+
+LightTotal lit(const ExplainedFrame& frame, const LightModel& model, const LightTable& table,
+               const SurfacePlanes& surface, WindowPixel pixel) {
+  LightTotal out;
+  if (frame.program) {
+    out = lit_by_program(frame, model, table, surface, pixel);
+  } else {
+    out.pixel = lit_pixel(model, table, surface), out.table = &table;
+    for (const LightRow& row : table.row) out.lights.push_back(light_at(model, row, out.pixel));
+  }
+  out.sum = sum_of(model, out, {});
+  return out;
 }
 
 uint32_t mesh_covers(const ExplainedFrame& frame, const Light& light, const LightMesh& mesh, WindowPixel pixel) {
@@ -136,13 +178,14 @@ LitSurfaces lit_surfaces(const ExplainedFrame& frame, const PixelSurfaces& surfa
   LitSurfaces out;
   out.covered = surfaces.covered;
   out.geometry = std::move(geometry);
-  if (surfaces.covered) out.visible = lit(model, frame.lights, surfaces.visible);
+  if (surfaces.covered) out.visible = lit(frame, model, frame.lights, surfaces.visible, surfaces.pixel);
   for (size_t i = 0; i < out.geometry.size() && surfaces.covered; ++i)
     if (out.geometry[i] == 0 && out.visible.lights[i].fate == LightFate::adds)
       out.visible.lights[i].fate = LightFate::not_drawn;
-  for (const SurfacePlanes& tied : surfaces.tied) out.tied.push_back(lit(model, frame.lights, tied));
+  for (const SurfacePlanes& tied : surfaces.tied)
+    out.tied.push_back(lit(frame, model, frame.lights, tied, surfaces.pixel));
   for (const SurfacePlanes& glass : surfaces.glass)
-    out.glass.push_back(lit(model_of_glass(frame), frame.glass_lights, glass));
+    out.glass.push_back(lit(frame, model_of_glass(frame), frame.glass_lights, glass, surfaces.pixel));
   return out;
 }
 

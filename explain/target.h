@@ -1,17 +1,20 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "explain/blended_pixel.h"
 #include "explain/light.h"
+#include "explain/program_at_surface.h"
 
 namespace trueshade {
 
 /// The surfaces of a pixel that light comes from.
 struct PixelSurfaces {
+  WindowPixel pixel{};
   bool covered = false;              ///< an opaque surface is visible
   SurfacePlanes visible;             ///< it, as lights read it
   std::vector<SurfacePlanes> tied;   ///< forward-multipass: all fragments at the stored depth, in order of submission,
@@ -21,10 +24,12 @@ struct PixelSurfaces {
 
 /// The lights on one surface.
 struct LightTotal {
-  LitPixel pixel;
+  LitPixel pixel;                     ///< where a program lights it: what the sum starts from, and the planes
   const LightTable* table = nullptr;  ///< whose rows the lights are
   std::vector<LightAtPixel> lights;   ///< by index in the scene
   std::array<float, 4> sum{};         ///< of all, as the target receives it
+  std::shared_ptr<const ProgramAtSurface> program = nullptr;  ///< what lights add in place of a model; null: none
+  bool takes_albedo_alpha = false;                            ///< of a program that does not say what alpha is
 };
 
 /// The surfaces of a pixel under their lights.

@@ -2,6 +2,7 @@
 
 #include "raster/visibility/fragment_layers.h"
 #include "shading/blend/transparent_blend.h"
+#include "shading/program/program_frame.h"
 
 namespace trueshade {
 namespace {
@@ -28,6 +29,7 @@ TransparentPass::TransparentPass(const Scene& scene, const Pipeline& pipeline, c
       target_{into_albedo() ? pipeline.gbuffer.albedo.format : pipeline.target, pipeline.profile,
               pipeline.gbuffer.half_round} {
   model_.alpha_from_albedo = true;
+  if (program != nullptr && program->reads().uv) uv_planes_ = UvPlanes::filled;
   if (!after_lights()) return;
   lights_ = make_light_table(scene.lights, model_, scene.camera, execution.threads);
   bound_by_extents(lights_, scene.lights, pipeline.light_volumes, false);
@@ -67,7 +69,7 @@ void TransparentPass::blend_after_lights(const TileDraws& all, const TileRect& r
   const TileDraws draws = with_list(all, work.transparent);
   LightCounts uncounted;
   for (FragmentLayers layers(work.fragments); layers.next(work.layer);) {
-    resolve_surfaces(draws, rect, planes_, model_, work.layer, UvPlanes::omitted, vertices, work.surface);
+    resolve_surfaces(draws, rect, planes_, model_, work.layer, uv_planes_, vertices, work.surface);
     light_tile(work.surface, rect.size, lights_, clusters_, model_, kNothing,
                {.culling = execution.light_culling, .compiled = execution.compiled_models}, lists, work.color,
                uncounted);

@@ -53,11 +53,12 @@ class TransparentPass {
   const Scene& scene_;
   TransparencyMode mode_;
   BlendState blend_;
-  GBufferState planes_;     ///< of the fragments: floats
-  LightModel model_;        ///< with the albedo's alpha
-  BlendTarget target_;      ///< or the albedo plane
-  LightTable lights_;       ///< bounded by their analytic extents; of after_lights
-  LightClusters clusters_;  ///< none without culling
+  GBufferState planes_;                     ///< of the fragments: floats
+  LightModel model_;                        ///< with the albedo's alpha
+  BlendTarget target_;                      ///< or the albedo plane
+  UvPlanes uv_planes_ = UvPlanes::omitted;  ///< filled where a program reads them
+  LightTable lights_;                       ///< bounded by their analytic extents; of after_lights
+  LightClusters clusters_;                  ///< none without culling
 };
 
 }  // namespace trueshade

@@ -34,10 +34,10 @@ class PairBatch {
     count_ = 0;
   }
 
-  /// Pixels of which some channel is not 0.
+  /// Pixels of which some channel is not 0. Highway's Ne is false with NaN on some targets.
   static MF any_channel(const VF light[3]) {
     const VF zero = hn::Zero(DF());
-    return hn::Or(hn::Or(hn::Ne(light[0], zero), hn::Ne(light[1], zero)), hn::Ne(light[2], zero));
+    return hn::Not(hn::And(hn::And(hn::Eq(light[0], zero), hn::Eq(light[1], zero)), hn::Eq(light[2], zero)));
   }
 
   static MF is_set(const float* words) {

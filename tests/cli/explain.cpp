@@ -83,6 +83,84 @@ TEST_CASE("what explain prints adds up: terms to the sum, draws one after the ot
     }
 }
 
+/// A program of six lines, and the words of a frame that it lights.
+constexpr const char* kProgram = R"(layout(std140) uniform Parameters { float gain; };
+vec3 light(Surface s, Light l, View v) {
+  vec3 d = l.position - s.position;
+  if (dot(d, s.normal) <= 0.0) return vec3(0.0);
+  return s.albedo.rgb * l.color * (gain / (1.0 + dot(d, d)));
+})";
+Words lit_by_program(const char* command) {
+  return {command,  "builtin:cornell",   "--size",   "64x64",    "--light-shader",
+          "p.glsl", "--light-parameter", "gain=0.5", "--target", "rgba32f"};
+}
+
+TEST_CASE("explain tells each line of a light program that the strongest light comes from, and all lights with --all") {
+  const ScratchFolder folder;
+  write_bytes(folder.path("p.glsl"), kProgram);
+  for (const bool all : {false, true}) {
+    Words words = lit_by_program("explain");
+    words.insert(words.end(), {"--pixel", "30,40", "--json", "-q"});
+    if (all) words.emplace_back("--all");
+    const Outcome told = run_command(words, folder.path(""));
+    INFO(told.err);
+    REQUIRE(told.exit_code == 0);
+    const auto document = nlohmann::json::parse(told.out);
+    CHECK(contradiction(document) == "");
+    int traced = 0, adding = 0;
+    for (const auto& part : document["parts"]) {
+      if (part["step"] != "lights") continue;
+      for (const auto& light : part["parts"]) {
+        if (light["step"] != "light") continue;
+        const bool adds = light["values"]["fate"] == "adds";
+        adding += adds;
+        if (!light.contains("parts")) continue;
+        ++traced;
+        std::vector<int> lines;
+        nlohmann::json last;
+        for (const auto& line : light["parts"][0]["parts"]) {
+          if (line["step"] != "line") continue;
+          last = line["parts"].back()["values"];
+          lines.push_back(last["line"].get<int>());
+        }
+        CHECK(lines == (adds ? std::vector<int>{3, 4, 5, 2} : lines));
+        INFO(light.dump(1));
+        CHECK(lines.size() >= 2);
+        if (adds) CHECK(last["value"] == light["values"]["term"]);
+      }
+    }
+    CHECK(adding > 1);
+    CHECK((all ? traced > adding : traced == 1));
+  }
+  Words words = lit_by_program("explain");
+  words.insert(words.end(), {"--pixel", "30,40", "-q"});
+  const Outcome told = run_command(words, folder.path(""));
+  INFO(told.out);
+  CHECK(told.out.find("line 3: vec3 d = l.position - s.position;") != std::string::npos);
+  CHECK(told.out.find("light.position.xyz - surface.position.xyz") != std::string::npos);
+}
+
+TEST_CASE("explain tells where another picture's value comes from under a light program") {
+  const ScratchFolder folder;
+  write_bytes(folder.path("p.glsl"), kProgram);
+  Words render = lit_by_program("render"), explain = lit_by_program("explain");
+  render.insert(render.end(), {"-o", "same.exr", "-q"});
+  REQUIRE(run_command(render, folder.path("")).exit_code == 0);
+  REQUIRE(run_command({"render", "builtin:cornell", "--size", "64x64", "--target", "rgba32f", "--preset",
+                       "light-volumes", "--strategy", "deferred-loop", "-o", "other.exr", "-q"},
+                      folder.path(""))
+              .exit_code == 0);
+  explain.insert(explain.end(), {"--pixel", "30,40", "-q", "--against"});
+  Words same = explain, other = explain;
+  same.emplace_back("same.exr"), other.emplace_back("other.exr");
+  const Outcome of_same = run_command(same, folder.path("")), of_other = run_command(other, folder.path(""));
+  INFO(of_same.err << of_other.err << of_same.out.substr(of_same.out.find("same.exr")) << of_other.out);
+  CHECK(of_same.out.find("the same as here") != std::string::npos);
+  CHECK(of_same.out.find("EXACT") != std::string::npos);
+  CHECK(of_other.out.find("VIOLATION") != std::string::npos);
+  CHECK(of_other.out.find("the preset light-volumes: exactly what the picture has") != std::string::npos);
+}
+
 TEST_CASE("explain follows time and profile as render does") {
   const ScratchFolder folder;
   const Words how = {"builtin:circle",     "--size",     "64x48",           "--time", "1.5", "--profile",

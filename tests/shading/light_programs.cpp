@@ -135,20 +135,42 @@ TEST_CASE("Metals, gloss, emission and unlit colours come to a program as materi
             .find("share a plane") != std::string::npos);
 }
 
-TEST_CASE("NaN is stored as one pattern on every target") {
+TEST_CASE("NaN is stored as one pattern on every target, also where nothing else is added") {
   const Scene scene = builtin_scene("cornell,lights=2");
-  const Pipeline pipeline = by_program(
-      "vec3 light(Surface s, Light l, View v) { return vec3(sqrt(-1.0 - s.albedo.r), 0.0 / (l.range - l.range), 1.0); "
-      "}");
-  for (const std::string_view target : simd_targets()) {
-    Execution execution;
-    execution.simd = target;
-    const Frame frame = render_frame(scene, pipeline, execution);
-    uint32_t bits[2];
-    std::memcpy(bits, frame.color.texel(48, 32), sizeof bits);
-    CHECK(bits[0] == 0x7FC00000u);
-    CHECK(bits[1] == 0x7FC00000u);
+  for (const char* blue : {"1.0", "0.0", "sqrt(-2.0)"}) {
+    const std::string text = std::string(
+                                 "vec3 light(Surface s, Light l, View v) { return vec3(sqrt(-1.0 - s.albedo.r), "
+                                 "0.0 / (l.range - l.range), ") +
+                             blue + "); }";
+    const Pipeline pipeline = by_program(text.c_str());
+    for (const std::string_view target : simd_targets()) {
+      Execution execution;
+      execution.simd = target;
+      const Frame frame = render_frame(scene, pipeline, execution);
+      uint32_t bits[2];
+      std::memcpy(bits, frame.color.texel(48, 32), sizeof bits);
+      CHECK(bits[0] == 0x7FC00000u);
+      CHECK(bits[1] == 0x7FC00000u);
+    }
   }
+}
+
+TEST_CASE("A program reads the texture coordinates of transparent surfaces too") {
+  Scene scene = builtin_scene("lecture");
+  Pipeline pipeline = by_program("vec3 light(Surface s, Light l, View v) { return vec3(s.uv + 0.25, 1.0); }");
+  pipeline.strategy = Strategy::forward_loop;
+  const Image opaque = render_frame(scene, pipeline, {}).color;
+  for (Material& m : scene.materials) m.transparent = true, m.base_color.a = 1.0f;
+  const Image glass = render_frame(scene, pipeline, {}).color;
+  int seen = 0;
+  for (int x = 0; x < opaque.width; ++x) {
+    const int y = opaque.height / 2;
+    if (opaque.value(x, y, 2) == 0) continue;
+    seen += opaque.value(x, y, 0) != opaque.value(x, y, 1);
+    CHECK(glass.value(x, y, 0) == opaque.value(x, y, 0));
+    CHECK(glass.value(x, y, 1) == opaque.value(x, y, 1));
+  }
+  CHECK(seen > 20);
 }
 
 TEST_CASE("What a light program cannot be is said with its place") {

@@ -1,0 +1,52 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <vector>
+
+#include "explain/surface.h"
+#include "shading/program/program_frame.h"
+
+namespace trueshade {
+
+/// The value of every node of a program: its bits; a boolean is 0 or 1.
+using NodeBits = std::vector<uint32_t>;
+
+/// A light program at one surface. Its nodes are computed one by one, each by the executor's own operation, so that a
+/// value is what the renderer has there, but for the bits of NaNs (tests/explain holds the pixels to render_frame()).
+/// The inputs of lights, view and parameters are the frame's.
+class ProgramAtSurface {
+ public:
+  ProgramAtSurface(std::shared_ptr<const ProgramFrame> frame, const SurfacePlanes& surface, WindowPixel pixel);
+
+  const programs::Program& program() const { return frame_->executable().program; }
+  bool is_unlit() const { return unlit_; }  ///< the surface shows its albedo, and no function is asked
+
+  /// All nodes but those that wait for the sum, for a light by its index in the scene; all but those of lights, for
+  /// the sum of the lights. What is left out is 0.
+  NodeBits at_light(size_t light) const;
+  NodeBits at_sum(const std::array<float, 3>& sum) const;
+
+  /// Outputs, from the first on, as floats.
+  template <size_t n>
+  std::array<float, n> output(const NodeBits& bits, programs::Output first) const {
+    std::array<float, n> out;
+    for (size_t k = 0; k < n; ++k) out[k] = as_float(bits[program().output[size_t(first) + k]]);
+    return out;
+  }
+  std::array<float, 3> start() const { return output<3>(of_surface_, programs::kStartOutput); }
+
+ private:
+  static float as_float(uint32_t bits);
+  template <class Input>
+  void compute(std::initializer_list<programs::Rate> rates, NodeBits& bits, Input input) const;
+
+  std::shared_ptr<const ProgramFrame> frame_;
+  std::vector<uint32_t> place_;  ///< of each input among those of its rate
+  NodeBits of_surface_;          ///< constants and what depends on the surface alone
+  bool unlit_;
+};
+
+}  // namespace trueshade
