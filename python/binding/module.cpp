@@ -13,6 +13,9 @@ namespace {
 /// What errors name by an option of the command and Python by an argument.
 constexpr std::pair<std::string_view, std::string_view> kArgumentOfOption[] = {
     {"--strategy", "strategy"},
+    {"--light-parameter NAME=VALUE", "light_parameters={'NAME': VALUE}"},
+    {"--light-parameter", "light_parameters"},
+    {"--light-shader FILE", "light_shader=FILE"},
     {"--view", "values['view']"},
     {"--pixel", "x, y"},
     {"--allow-nonfinite", "allow_nonfinite=True"}};

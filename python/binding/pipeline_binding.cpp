@@ -1,11 +1,18 @@
 // Pipelines: by which rules frames are drawn.
+#include <fstream>
+#include <iterator>
+
+#include "core/sha256.h"
 #include "python/binding/bindings.h"
 #include "python/binding/python_pipeline.h"
 #include "python/binding/python_scene.h"
+#include "scenes/light_models/light_models.h"
 #include "scenes/pipeline/presets.h"
 
 namespace trueshade::python {
 namespace {
+
+constexpr size_t kMostProgramBytes = 8'000'000;  // a file of SPIR-V has 4 MB at most, of GLSL 1 MB
 
 std::optional<std::string> preset_named(const py::object& preset) {
   if (preset.is_none()) return std::nullopt;
@@ -24,10 +31,47 @@ std::array<int, 2> size_of(const py::object& size) {
   return {int(sides[0]), int(sides[1])};
 }
 
+/// A model that ships, by name, or the file of a user's program.
+LightProgram light_program_of(const py::object& shader, const py::object& parameters) {
+  if (shader.is_none() && parameters.is_none()) return {};
+  if (shader.is_none()) throw bad_argument("light_parameters", "there is no light program", "pass light_shader too");
+  const std::string name = path_of(shader);
+  LightProgram program;
+  if (names_shipped_model(name)) {
+    program = shipped_program(name);
+  } else {
+    std::ifstream file(name, std::ios::binary);
+    if (!file) throw bad_argument("light_shader", "'" + name + "' cannot be read", "a file of GLSL or SPIR-V");
+    program.file = name;
+    program.text.assign(std::istreambuf_iterator<char>(file), {});
+    if (program.text.size() > kMostProgramBytes || program.text.empty())
+      throw bad_argument("light_shader", "'" + name + "' is empty, or has more than 8 MB", "GLSL that defines light()");
+    program.sha256 = sha256_of(program.text);
+  }
+  if (parameters.is_none()) return program;
+  if (!py::isinstance<py::dict>(parameters))
+    throw bad_argument("light_parameters", "it is a " + type_name(parameters), "pass a dict of numbers and sequences");
+  for (const auto& [key, value] : parameters.cast<py::dict>()) {
+    ProgramParameter parameter{py::str(key), {}};
+    const auto given = py::reinterpret_borrow<py::object>(value);
+    const py::object list = py::isinstance<py::float_>(given) || py::isinstance<py::int_>(given)
+                                ? py::object(py::make_tuple(given))
+                                : given;
+    const size_t count = py::len(list);
+    if (count < 1 || count > 4)
+      throw bad_argument("light_parameters", "'" + parameter.name + "' has " + std::to_string(count) + " numbers", "1 to 4");
+    for (const double number : numbers_of(list, "light_parameters", count)) parameter.value.push_back(float(number));
+    program.parameters.push_back(std::move(parameter));
+  }
+  return program;
+}
+
 PythonPipeline make_pipeline(const py::object& preset, const py::object& size, const py::object& strategy,
-                             const py::object& target, const py::object& values, const PythonScene* scene) {
+                             const py::object& target, const py::object& values, const py::object& light_shader,
+                             const py::object& light_parameters, const PythonScene* scene) {
   PythonPipeline out;
   out.preset = preset_named(preset);
+  out.light_program = light_program_of(light_shader, light_parameters);
   if (!values.is_none()) out.values = py::isinstance<py::str>(values) ? values.cast<std::string>() : to_json(values);
   py::dict named;
   if (!strategy.is_none()) named["strategy"] = strategy;
@@ -52,10 +96,12 @@ std::string described(const PythonPipeline& pipeline) {
 Pipeline PythonPipeline::over(const Scene& scene) const {
   if (whole) return *whole;
   Pipeline p = preset ? *preset_pipeline(*preset) : default_pipeline(scene);
+  if (light_program.used()) p.light_volumes.point = p.light_volumes.spot = LightExtent::range;
   if (!scene.pipeline_text.empty()) p = pipeline_from_json(scene.pipeline_text, scene.spec + ": /pipeline", p);
   if (!values.empty()) p = pipeline_from_json(values, "values", p);
   if (!named.empty()) p = pipeline_from_json(named, "pipeline", p);
   if (size) p.width = (*size)[0], p.height = (*size)[1];
+  if (light_program.used()) p.light_program = light_program;
   validate(p);
   return p;
 }
@@ -72,7 +118,7 @@ void add_pipeline(py::module_& module) {
   py::class_<PythonPipeline>(module, "Pipeline", doc_of("Pipeline"))
       .def(py::init(&make_pipeline), doc_of("Pipeline.__init__"), "preset"_a = py::none(), py::kw_only(),
            "size"_a = py::none(), "strategy"_a = py::none(), "target"_a = py::none(), "values"_a = py::none(),
-           "scene"_a = py::none())
+           "light_shader"_a = py::none(), "light_parameters"_a = py::none(), "scene"_a = py::none())
       .def_property_readonly(
           "size",
           [](const PythonPipeline& p) {

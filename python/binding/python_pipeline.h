@@ -16,6 +16,7 @@ struct PythonPipeline {
   std::string values;  ///< JSON; empty without
   std::string named;   ///< strategy and target as JSON; empty without
   std::optional<std::array<int, 2>> size;
+  LightProgram light_program;  ///< with its text; of no file where there is none
   std::optional<Pipeline> whole;  ///< of one that was made for a scene, or of a frame: all of it
 
   /// Error(bad_input) as pipeline_from_json() has it, Error(usage) for values that do not go together.

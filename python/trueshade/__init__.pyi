@@ -238,6 +238,9 @@ class Pipeline:
         rgba16, r11g11b10f, rgb16f, rgba16f or rgba32f.
     values: keys of the pipeline's JSON (scenes/schemas/pipeline.schema.json), as a mapping or as text, over the preset's
         and over those of the scene's file.
+    light_shader: a light program in place of the preset's formula (docs/light_programs.md): a file of GLSL or SPIR-V, or
+        the name of a model that ships. light_parameters: values for the members of its block Parameters, numbers or the
+        components of vectors.
     scene: takes what the scene starts from now, so that the properties below have it; else that is done when a frame is
         drawn, as the options of the command do, and until then the properties are those for a scene that asks for nothing.
     Raises Error for names that do not exist, with those that do, and for values that do not go together.
@@ -251,6 +254,8 @@ class Pipeline:
         strategy: Optional[str] = None,
         target: Optional[str] = None,
         values: Union[None, str, Mapping[str, Any]] = None,
+        light_shader: Optional[_Path] = None,
+        light_parameters: Optional[Mapping[str, Union[float, Sequence[float]]]] = None,
         scene: Optional[Scene] = None,
     ) -> None: ...
     @property

@@ -150,3 +150,40 @@ def test_a_changed_scene_is_drawn_anew():
     fresh = trueshade.load_scene("builtin:cornell")
     fresh.add_light("point", position=(0, 0.5, 0), color=(9, 0, 0), range=2)
     assert trueshade.render(fresh, pipeline).hash == trueshade.render(scene, pipeline).hash
+
+
+def test_a_light_program_is_drawn_judged_and_explained(command, tmp_path):
+    shader = tmp_path / "mine.glsl"
+    shader.write_text(
+        "layout(std140) uniform Parameters { float gain; vec3 tint; };\n"
+        "vec3 light(Surface s, Light l, View v) {\n"
+        "  vec3 d = l.position - s.position;\n"
+        "  return gain * tint * s.albedo.rgb * max(dot(s.normal, normalize(d)), 0.0) / (1.0 + dot(d, d));\n"
+        "}\n"
+    )
+    scene = trueshade.load_scene("builtin:cornell")
+    pipeline = trueshade.Pipeline(size=SIZE, light_shader=shader, light_parameters={"gain": 4, "tint": (1, 0.5, 0.25)})
+    frame = trueshade.render(scene, pipeline, planes=["depth", "position", "normal", "albedo", "id.object"])
+    told = command(
+        "render", "builtin:cornell", "--size", "64x48", "--light-shader", str(shader), "--light-parameter", "gain=4",
+        "--light-parameter", "tint=1,0.5,0.25", "--hash",
+    )  # fmt: skip
+    assert frame.hash == hash_of(told)
+    assert trueshade.validate(scene, frame.color, frame.planes, pipeline)["pass"]
+    wrong = trueshade.Pipeline(size=SIZE, light_shader=shader, light_parameters={"gain": 4.2, "tint": (1, 0.5, 0.25)})
+    assert not trueshade.validate(scene, frame.color, frame.planes, wrong)["pass"]
+    assert trueshade.explain(scene, 30, 20, pipeline)["values"]["stored"] == frame.color[20, 30].tolist()
+    shipped = trueshade.render(scene, trueshade.Pipeline(size=SIZE, light_shader="wrapped", light_parameters={"wrap": 0.5}))
+    assert shipped.hash != frame.hash
+
+
+def test_a_wrong_light_program_is_said_with_its_place(tmp_path):
+    shader = tmp_path / "wrong.glsl"
+    shader.write_text("vec3 light(Surface s, Light l, View v) { return s.nothing; }\n")
+    scene = trueshade.load_scene("builtin:cornell")
+    with pytest.raises(trueshade.Error, match="wrong.glsl:1:"):
+        trueshade.render(scene, trueshade.Pipeline(size=SIZE, light_shader=shader))
+    with pytest.raises((ValueError, trueshade.Error), match="light_shader"):
+        trueshade.Pipeline(light_parameters={"gain": 1})
+    with pytest.raises((ValueError, trueshade.Error), match="cannot be read"):
+        trueshade.Pipeline(light_shader=str(tmp_path / "none.glsl"))
