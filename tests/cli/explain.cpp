@@ -123,10 +123,11 @@ TEST_CASE("explain tells each line of a light program that the strongest light c
           last = line["parts"].back()["values"];
           lines.push_back(last["line"].get<int>());
         }
-        CHECK(lines == (adds ? std::vector<int>{3, 4, 5, 2} : lines));
         INFO(light.dump(1));
         CHECK(lines.size() >= 2);
-        if (adds) CHECK(last["value"] == light["values"]["term"]);
+        if (!adds) continue;
+        CHECK(lines == std::vector{3, 4, 5});
+        CHECK(last["value"] == light["values"]["term"]);
       }
     }
     CHECK(adding > 1);
