@@ -76,7 +76,7 @@ LightTotal lit_by_program(const ExplainedFrame& frame, const LightModel& model, 
 }
 
 /// The sum of the lights, each as often as it counts.
-std::array<float, 4> sum_of(const LightModel& model, const LightTotal& total, LightTimes times) {
+std::array<float, 4> summed(const LightModel& model, const LightTotal& total, LightTimes times) {
   std::array<float, 3> sum = total.pixel.start;
   for (size_t i = 0; i < total.lights.size(); ++i)
     for (int n = total.lights[i].fate == LightFate::adds ? times[i] : 0; n > 0; --n)
@@ -93,8 +93,12 @@ LightTotal lit(const ExplainedFrame& frame, const LightModel& model, const Light
     out.pixel = lit_pixel(model, table, surface), out.table = &table;
     for (const LightRow& row : table.row) out.lights.push_back(light_at(model, row, out.pixel));
   }
-  out.sum = sum_of(model, out, {});
+  out.sum = summed(model, out, {});
   return out;
+}
+
+std::array<float, 4> sum_of(const LightModel& model, const LightTotal& total, LightTimes times) {
+  return times.times.empty() ? total.sum : summed(model, total, times);
 }
 
 uint32_t mesh_covers(const ExplainedFrame& frame, const Light& light, const LightMesh& mesh, WindowPixel pixel) {
