@@ -70,7 +70,6 @@ void add_size(CommandTable& table, std::optional<std::string>& size);
 void add_time(CommandTable& table, std::optional<std::string>& time);
 void add_target(CommandTable& table, std::optional<std::string>& target);
 void add_strategy(CommandTable& table, std::optional<std::string>& strategy);
-void add_light_program(CommandTable& table, PipelineOptions& options);  ///< of commands that draw lights
 void add_profile(CommandTable& table, std::optional<std::string>& profile);
 void add_light_program(CommandTable& table, PipelineOptions& options);  ///< of commands that draw or judge lights
 void add_simd(CommandTable& table, std::string& simd, const std::string& help);

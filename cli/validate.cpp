@@ -148,8 +148,9 @@ bool judge_opengl(const ValidationOptions& options) {
   activity->now("reading the scene");
   Scene scene = scene_of_options(options.scene, options.limits);
   set_time(scene, options.time);
-  v.pipeline = with_planes_of_program(pipeline_of(options, scene));
-  fit_lights_of_ours(scene, v.pipeline.light_model);
+  const Pipeline asked = pipeline_of(options, scene);
+  fit_lights_of_ours(scene, asked.light_model);
+  v.pipeline = with_planes_of_program(asked);
   if (files && !options.size) v.pipeline.width = files->width(), v.pipeline.height = files->height();
   check_memory(scene, v.pipeline, {}, {}, judging_memory(options, v.pipeline));
   if (names_vulkan(options.driver)) v.profile = *oracle::profile_named("vulkan");
