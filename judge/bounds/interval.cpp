@@ -76,6 +76,16 @@ Interval any_integer(Type type) {
   return {0, -0x1p31, 0x1p31 - 1, false};
 }
 
+/// The same 32 bits as a signed and as an unsigned number: nodes of integers do not say which they are.
+Interval as_unsigned(const Interval& x) {
+  if (x.known()) return Interval::of(double(uint32_t(int64_t(x.low))));
+  return x.low < 0 || x.maybe_nan ? any_integer(Type::u32) : x;
+}
+Interval as_signed(const Interval& x) {
+  if (x.known()) return Interval::of(double(int32_t(uint32_t(int64_t(x.low)))));
+  return x.high > 0x1p31 - 1 || x.maybe_nan ? any_integer(Type::i32) : x;
+}
+
 uint32_t bits_of(const Interval& x, Type type) {
   if (type == Type::f32) return std::bit_cast<uint32_t>(float(x.low));
   return uint32_t(int64_t(x.low));
@@ -88,7 +98,7 @@ Interval of_bits(uint32_t bits, Type type) {
 
 float of_half(uint32_t half) {
   const uint32_t exponent = half >> 10 & 31, mantissa = half & 1023;
-  const double size = exponent == 31   ? (mantissa != 0 ? NAN : HUGE_VAL)
+  const double size = exponent == 31  ? (mantissa != 0 ? NAN : HUGE_VAL)
                       : exponent == 0 ? std::ldexp(double(mantissa), -24)
                                       : std::ldexp(double(1024 + mantissa), int(exponent) - 25);
   return float((half & 0x8000) != 0 ? -size : size);
@@ -221,9 +231,10 @@ Interval IntervalArithmetic::within(Interval x, double relative, double absolute
   return x;
 }
 
-Interval IntervalArithmetic::sum(std::span<const Interval> terms) const {
+Interval IntervalArithmetic::sum(std::span<const Interval> terms, double more) const {
   Interval out;
   double magnitude = 0;
+  if (std::isnan(more)) return Interval::anything();
   bool not_negative = true, not_positive = true;
   for (const Interval& t : terms) {
     out.value += t.value, out.low += t.low, out.high += t.high;
@@ -234,12 +245,26 @@ Interval IntervalArithmetic::sum(std::span<const Interval> terms) const {
   // Partial sums are rounded too, those but the last at most to a part of all magnitudes.
   const double partial = double(terms.size() - 2) * a_.roundoff * magnitude;
   if (terms.size() > 2) out.low -= partial, out.high += partial;
+  if (more != 0 && !(more < HUGE_VAL)) return Interval::anything();
+  out.low -= more, out.high += more;
   if (not_negative) out.low = std::max(out.low, 0.0);
   if (not_positive) out.high = std::min(out.high, 0.0);
   return rounded(out);
 }
 
+/// Where a driver may fuse a product with a sum it is not rounded.
+Interval IntervalArithmetic::maybe_fused(const Interval& exact) const {
+  Interval out = rounded(exact);
+  if (!a_.exact_pow) out.low = std::min(out.low, exact.low), out.high = std::max(out.high, exact.high);
+  return out;
+}
+
 Interval IntervalArithmetic::product(const Interval& x, const Interval& y) const {
+  const Interval exact = exact_product(x, y);
+  return exact.maybe_nan ? Interval::anything() : maybe_fused(exact);
+}
+
+Interval IntervalArithmetic::exact_product(const Interval& x, const Interval& y) const {
   Interval out{x.value * y.value, HUGE_VAL, -HUGE_VAL, x.maybe_nan || y.maybe_nan};
   for (const double p : {x.low, x.high})
     for (const double q : {y.low, y.high}) {
@@ -247,19 +272,21 @@ Interval IntervalArithmetic::product(const Interval& x, const Interval& y) const
       if (std::isnan(both)) return Interval::anything();
       out.low = std::min(out.low, both), out.high = std::max(out.high, both);
     }
-  return rounded(out);
+  return out;
 }
 
 Interval IntervalArithmetic::square(const Interval& x) const {
   const double least = x.low <= 0 && x.high >= 0 ? 0 : std::min(std::fabs(x.low), std::fabs(x.high));
-  return rounded({x.value * x.value, least * least, x.size() * x.size(), x.maybe_nan});
+  return maybe_fused({x.value * x.value, least * least, x.size() * x.size(), x.maybe_nan});
 }
 
 Interval IntervalArithmetic::quotient(const Interval& x, const Interval& y) const {
   const bool by_zero = y.low <= 0 && y.high >= 0;
   if (by_zero && ((y.low < 0 && y.high > 0) || (x.low <= 0 && x.high >= 0) || (x.low < 0) != (y.low < 0) || x.low < 0))
     return Interval::anything();
-  if (by_zero) return within({y.value != 0 ? x.value / y.value : 0, x.low / y.high, HUGE_VAL, x.maybe_nan || y.maybe_nan}, a_.divide);
+  if (by_zero)
+    return within({y.value != 0 ? x.value / y.value : 0, x.low / y.high, HUGE_VAL, x.maybe_nan || y.maybe_nan},
+                  a_.divide);
   Interval out{x.value / y.value, HUGE_VAL, -HUGE_VAL, x.maybe_nan || y.maybe_nan};
   for (const double p : {x.low, x.high})
     for (const double q : {y.low, y.high}) {
@@ -281,7 +308,7 @@ Interval IntervalArithmetic::root(const Interval& x) const {
 Interval IntervalArithmetic::inverse_root(const Interval& x) const {
   const double low = std::max(x.low, 0.0), high = std::max(x.high, 0.0);
   return within({x.value > 0 ? 1 / std::sqrt(x.value) : 0, 1 / std::sqrt(high), 1 / std::sqrt(low),
-                 x.maybe_nan || x.low < 0},
+                 x.maybe_nan || x.low < 0 || (x.low == 0 && !a_.exact_pow)},
                 a_.inverse_sqrt);
 }
 
@@ -293,13 +320,14 @@ Interval IntervalArithmetic::exponential(const Interval& x, double base) const {
   const auto error = [](double v) { return (3 + 2 * std::fabs(v)) * kUlp; };
   out.low = std::isfinite(x.low) ? out.low * (1 - error(x.low)) : out.low;
   out.high = std::isfinite(x.high) ? out.high * (1 + error(x.high)) : out.high;
+  if (out.high > kLargest) return Interval::anything();  // as of power(): its accuracy ends there
   return within(out, 0);
 }
 
 Interval IntervalArithmetic::logarithm(const Interval& x, double base) const {
   const double scale = 1 / std::log2(base), low = std::max(x.low, 0.0), high = std::max(x.high, 0.0);
   const Interval out{x.value > 0 ? std::log2(x.value) * scale : 0, std::log2(low) * scale, std::log2(high) * scale,
-                     x.maybe_nan || x.low < 0};
+                     x.maybe_nan || x.low < 0 || (x.low == 0 && !a_.exact_pow)};
   if (a_.exact_pow) return within(out, kUlp);  // of a formula in double, rounded once
   const bool near_one = low < 2 && high > 0.5;
   return within(out, 3 * kUlp, near_one ? 0x1p-21 : 0);
@@ -313,7 +341,8 @@ Interval IntervalArithmetic::power(const Interval& x, const Interval& y) const {
   out.maybe_nan = out.maybe_nan || x.low < 0 || (x.low <= 0 && y.low <= 0);
   for (const double p : {std::max(x.low, 0.0), std::max(x.high, 0.0)})
     for (const double q : {y.low, y.high}) {
-      const double both = std::pow(p, q), error = p > 0 && std::isfinite(p) ? relative_power_error(a_, p, std::fabs(q)) : 0;
+      const double both = std::pow(p, q),
+                   error = p > 0 && std::isfinite(p) ? relative_power_error(a_, p, std::fabs(q)) : 0;
       if (std::isnan(both) || std::isnan(error)) return Interval::anything();
       out.low = std::min(out.low, both * std::max(0.0, 1 - error)), out.high = std::max(out.high, both * (1 + error));
     }
@@ -402,7 +431,7 @@ Interval IntervalArithmetic::function(Op op, const Interval& x, const Interval& 
       return out;
     }
     case Op::asinh:  // log(x + sqrt(x x + 1)), whose argument is a difference below 0
-      return of([](double v) { return std::asinh(v); }, 4 * kUlp, 0x1p-20 + (x.low < 0 ? 8 * kUlp * size * size : 0));
+      return of([](double v) { return std::asinh(v); }, 4 * kUlp, 0x1p-20 + (x.low < 0 ? 16 * kUlp * size * size : 0));
     case Op::acosh:
       return of([](double v) { return std::acosh(v); }, 4 * kUlp, 0x1p-10);
     default:  // atanh
@@ -432,8 +461,8 @@ Interval IntervalArithmetic::operator()(const ProgramNode& node, const Interval&
       return root(x);
     case Op::f_inverse_sqrt:
       return inverse_root(x);
-    case Op::f_fma: {  // a driver may round the product
-      const Interval terms[] = {product(x, y), z};
+    case Op::f_fma: {  // a driver may round the product; ours does not
+      const Interval terms[] = {a_.exact_pow ? exact_product(x, y) : product(x, y), z};
       return sum(terms);
     }
     case Op::f_floor:
@@ -445,8 +474,9 @@ Interval IntervalArithmetic::operator()(const ProgramNode& node, const Interval&
     case Op::f_round:  // either neighbour of a tie
       return {std::nearbyint(x.value), std::ceil(x.low - 0.5), std::floor(x.high + 0.5), x.maybe_nan};
     case Op::i_to_f:
+      return rounded(as_signed(x));
     case Op::u_to_f:
-      return rounded(x);
+      return rounded(as_unsigned(x));
     case Op::f_neg:
       return {-x.value, -x.high, -x.low, x.maybe_nan};
     case Op::f_abs: {
@@ -461,10 +491,12 @@ Interval IntervalArithmetic::operator()(const ProgramNode& node, const Interval&
     case Op::f_ne:
     case Op::f_lt:
     case Op::f_le:
-    case Op::i_eq:
-    case Op::i_lt:
-    case Op::u_lt:
       return compared(node.op, x, y);
+    case Op::i_lt:
+      return compared(node.op, as_signed(x), as_signed(y));
+    case Op::i_eq:
+    case Op::u_lt:
+      return compared(node.op, as_unsigned(x), as_unsigned(y));
     case Op::f_to_i:
     case Op::f_to_u:
       return converted(node, x);

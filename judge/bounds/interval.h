@@ -44,8 +44,10 @@ class IntervalArithmetic {
   /// Operands that the operation does not have are not read. Not of `constant` and `input`.
   Interval operator()(const programs::ProgramNode& node, const Interval& x, const Interval& y, const Interval& z) const;
 
-  /// Terms added in any order, two or more.
-  Interval sum(std::span<const Interval> terms) const;
+  /// Terms added in any order, two or more; `more`: what else the sum may be off before it is rounded.
+  Interval sum(std::span<const Interval> terms, double more = 0) const;
+  /// The same product in another order of its factors: every rounding by as much as it may be.
+  Interval reordered(const Interval& product) const { return within(product, a_.roundoff); }
   Interval square(const Interval& x) const;
 
  private:
@@ -53,6 +55,8 @@ class IntervalArithmetic {
   double above(double x) const;
   Interval rounded(Interval x) const;
   Interval within(Interval x, double relative, double absolute = 0) const;
+  Interval exact_product(const Interval& x, const Interval& y) const;
+  Interval maybe_fused(const Interval& exact) const;
   Interval product(const Interval& x, const Interval& y) const;
   Interval quotient(const Interval& x, const Interval& y) const;
   Interval root(const Interval& x) const;

@@ -20,7 +20,7 @@ using programs::Op;
 using programs::ProgramNode;
 using programs::Rate;
 
-constexpr size_t kMostTerms = 64;  // of a sum whose order is taken to be any, and how deep they may lie
+constexpr size_t kMostTerms = 64;         // of a sum whose order is taken to be any, and how deep they may lie
 constexpr size_t kMostLaneSlots = 16384;  // values of a surface or a pair, which are 1.5 KiB each in lanes
 
 /// A constant of the source. A compiler may have made it of others, in double or in floats: a part in 2^23, unless it
@@ -39,8 +39,8 @@ struct ProgramTotal {
   int added = 0;
 
   void start(size_t k, const Interval& x) {
-    lit.undefined = lit.undefined || x.maybe_nan;
     lit.color[k] = bounded_of(x);
+    lit.undefined = lit.undefined || x.maybe_nan || !std::isfinite(lit.color[k].error);
     magnitude[k] = x.size();
     if (magnitude[k] > 0) added = 1;
   }
@@ -53,7 +53,7 @@ struct ProgramTotal {
       double largest = 0;
       for (const auto& one : outcomes) {
         const Bounded b = bounded_of(one[k]);
-        lit.undefined = lit.undefined || one[k].maybe_nan;
+        lit.undefined = lit.undefined || one[k].maybe_nan || !std::isfinite(b.error);
         chosen[k].error = std::max(chosen[k].error, b.error), largest = std::max(largest, one[k].size());
       }
       if (nominal) chosen[k].value = outcomes[*nominal][k].value;
@@ -126,17 +126,45 @@ ProgramBounds::ProgramBounds(const Scene& scene, const Pipeline& pipeline, const
 }
 
 /// The terms of a sum: through sums that the compiler may take apart.
-void ProgramBounds::gather(NodeId id, bool negated, std::vector<SumTerm>& out, size_t depth) const {
+std::vector<ProgramBounds::SumTerm> ProgramBounds::terms_of(NodeId id) const {
+  std::vector<SumTerm> out;
+  size_t visits = 0;
+  gather(id, false, out, 0, visits);
+  return out;
+}
+
+void ProgramBounds::gather(NodeId id, bool negated, std::vector<SumTerm>& out, size_t depth, size_t& visits) const {
   const ProgramNode& node = program_.nodes[id];
   const bool is_sum = node.op == Op::f_add || node.op == Op::f_sub;
+  const bool is_apart = (is_sum || node.op == Op::f_neg) && !node.precise && depth < kMostTerms;
+  if (!is_apart || ++visits > 4 * kMostTerms) return out.emplace_back(id, negated), void();
   const size_t before = out.size();
-  if ((is_sum || node.op == Op::f_neg) && !node.precise && before < kMostTerms && depth < kMostTerms) {
-    gather(node.operand[0], node.op == Op::f_neg ? !negated : negated, out, depth + 1);
-    if (is_sum) gather(node.operand[1], node.op == Op::f_sub ? !negated : negated, out, depth + 1);
-    if (out.size() <= kMostTerms) return;
-    out.resize(before);
-  }
+  gather(node.operand[0], node.op == Op::f_neg ? !negated : negated, out, depth + 1, visits);
+  if (is_sum) gather(node.operand[1], node.op == Op::f_sub ? !negated : negated, out, depth + 1, visits);
+  if (out.size() <= kMostTerms) return;
+  out.resize(before);
   out.emplace_back(id, negated);
+}
+
+/// The sums that terms_of() takes apart are mixed as they stand.
+void ProgramBounds::find_mixes(NodeId id, size_t depth, size_t& visits, std::vector<ProgramMix>& out) const {
+  const ProgramNode& node = program_.nodes[id];
+  const bool is_sum = node.op == Op::f_add || node.op == Op::f_sub;
+  if ((!is_sum && node.op != Op::f_neg) || node.precise || depth >= kMostTerms || ++visits > 4 * kMostTerms) return;
+  const auto at = [&](NodeId n) -> const ProgramNode& { return program_.nodes[n]; };
+  const auto is_one = [&](NodeId n) { return at(n).op == Op::constant && at(n).bits == std::bit_cast<uint32_t>(1.0f); };
+  for (size_t i = 0; i < 2 && node.op == Op::f_add; ++i) {
+    const ProgramNode &first = at(node.operand[i]), &second = at(node.operand[1 - i]);
+    if (first.op != Op::f_mul || second.op != Op::f_mul) continue;
+    for (const size_t j : {0, 1}) {
+      const ProgramNode& rest = at(first.operand[j]);
+      if (rest.op != Op::f_sub || !is_one(rest.operand[0])) continue;
+      for (const size_t k : {0, 1})
+        if (second.operand[k] == rest.operand[1])
+          out.push_back({place_[first.operand[1 - j]], place_[second.operand[1 - k]], place_[rest.operand[1]]});
+    }
+  }
+  for (const NodeId operand : node.operands()) find_mixes(operand, depth + 1, visits, out);
 }
 
 /// normalize() as the front end composes it: a component times (0 < l2 ? inversesqrt(l2) : 0), where l2 is a sum that
@@ -144,11 +172,14 @@ void ProgramBounds::gather(NodeId id, bool negated, std::vector<SumTerm>& out, s
 bool ProgramBounds::is_unit_component(const ProgramNode& product) const {
   for (const size_t i : {0, 1}) {
     NodeId root = product.operand[i];
-    if (program_.nodes[root].op == Op::select) root = program_.nodes[root].operand[1];
+    if (program_.nodes[root].op == Op::select) {
+      const ProgramNode& otherwise = program_.nodes[program_.nodes[root].operand[2]];
+      if (otherwise.op != Op::constant || otherwise.bits != 0) continue;
+      root = program_.nodes[root].operand[1];
+    }
     const ProgramNode& inverse = program_.nodes[root];
     if (inverse.op != Op::f_inverse_sqrt) continue;
-    std::vector<SumTerm> terms;
-    gather(inverse.operand[0], false, terms);
+    const std::vector<SumTerm> terms = terms_of(inverse.operand[0]);
     for (const auto& [id, negated] : terms) {
       const ProgramNode& square = program_.nodes[id];
       const NodeId component = product.operand[1 - i];
@@ -169,24 +200,18 @@ void ProgramBounds::find_patterns(NodeId id, Step& step) {
     return at(n).op == Op::constant && at(n).bits == std::bit_cast<uint32_t>(x);
   };
   step.squares = node.op == Op::f_mul && node.operand[0] == node.operand[1];
+  step.chained = node.op == Op::f_mul && !node.precise && !step.squares &&
+                 (at(node.operand[0]).op == Op::f_mul || at(node.operand[1]).op == Op::f_mul);
+  step.of_itself = node.op >= Op::f_eq && node.op <= Op::f_le && node.operand[0] == node.operand[1];
   step.of_unit_vector = node.op == Op::f_mul && is_unit_component(node);
-  step.normalizes = node.op == Op::select && at(node.operand[1]).op == Op::f_inverse_sqrt &&
-                    is_number(node.operand[2], 0.0f);
-  if (node.op != Op::f_add || node.precise) return;
-  for (const size_t i : {0, 1}) {  // x (1 - a) + y a
-    const ProgramNode &first = at(node.operand[i]), &second = at(node.operand[1 - i]);
-    if (first.op != Op::f_mul || second.op != Op::f_mul) continue;
-    for (const size_t j : {0, 1}) {
-      const ProgramNode& rest = at(first.operand[j]);
-      if (rest.op != Op::f_sub || !is_number(rest.operand[0], 1.0f)) continue;
-      for (const size_t k : {0, 1})
-        if (second.operand[k] == rest.operand[1]) {
-          mixes_.push_back({place_[first.operand[1 - j]], place_[second.operand[1 - k]], place_[rest.operand[1]]});
-          step.mixed = uint32_t(mixes_.size());
-          return;
-        }
-    }
-  }
+  step.normalizes =
+      node.op == Op::select && at(node.operand[1]).op == Op::f_inverse_sqrt && is_number(node.operand[2], 0.0f);
+  if (step.terms == 0) return;
+  std::vector<ProgramMix> mixes;
+  size_t visits = 0;
+  find_mixes(id, 0, visits, mixes);
+  step.first_mix = uint32_t(mixes_.size()), step.mixes = uint32_t(mixes.size());
+  mixes_.insert(mixes_.end(), mixes.begin(), mixes.end());
 }
 
 /// Places for all nodes, and what is computed of them how often. Sums are computed of their terms, so a partial sum
@@ -211,13 +236,13 @@ void ProgramBounds::make_steps() {
         if (needed[from] == 0) needed[from] = by;
       };
       if ((node.op == Op::f_add || node.op == Op::f_sub) && !node.precise) {
-        gather(id, false, terms[id]);
+        terms[id] = terms_of(id);
         for (const auto& [term, negated] : terms[id]) need(term);
         for (const NodeId operand : node.operands())
-          if (terms[id].size() <= 1) need(operand);  // a sum of too many terms is taken as it stands
-        for (const NodeId operand : node.operands())  // mix() looks at what its products are made of
-          if (program_.nodes[operand].op == Op::f_mul)
-            for (const NodeId factor : program_.nodes[operand].operands()) {
+          if (terms[id].size() <= 1) need(operand);    // a sum of too many terms is taken as it stands
+        for (const auto& [term, negated] : terms[id])  // mix() looks at what its products are made of
+          if (program_.nodes[term].op == Op::f_mul)
+            for (const NodeId factor : program_.nodes[term].operands()) {
               need(factor);
               if (program_.nodes[factor].op == Op::f_sub) need(program_.nodes[factor].operand[1]);
             }
@@ -233,8 +258,10 @@ void ProgramBounds::make_steps() {
     const ProgramNode& node = program_.nodes[id];
     if (needed[id] == 0 || node.op == Op::constant) continue;
     if (node.op == Op::input) {
-      if (node.rate == Rate::surface) surface_inputs_.emplace_back(place_[id].slot, surface_field(program_.inputs[node.bits].name));
-      if (node.rate == Rate::sum) sum_inputs_.emplace_back(place_[id].slot, component_of(program_.inputs[node.bits].name));
+      if (node.rate == Rate::surface)
+        surface_inputs_.emplace_back(place_[id].slot, surface_field(program_.inputs[node.bits].name));
+      if (node.rate == Rate::sum)
+        sum_inputs_.emplace_back(place_[id].slot, component_of(program_.inputs[node.bits].name));
       continue;
     }
     Step step;
@@ -251,7 +278,8 @@ void ProgramBounds::make_steps() {
 }
 
 void ProgramBounds::set_constants(const Scene& scene, const Pipeline& pipeline) {
-  constant_values_.resize(std::max<size_t>(1, slots_[size_t(Rate::constant)]));  // operands that are none read the first
+  constant_values_.resize(
+      std::max<size_t>(1, slots_[size_t(Rate::constant)]));  // operands that are none read the first
   for (NodeId id = 0; id < program_.nodes.size(); ++id) {
     const ProgramNode& node = program_.nodes[id];
     if (node.rate != Rate::constant) continue;
@@ -265,6 +293,10 @@ void ProgramBounds::set_constants(const Scene& scene, const Pipeline& pipeline) 
 
 void ProgramBounds::set_lights() {
   std::vector<Interval> terms;
+  constexpr uint64_t kMost = uint64_t(1) << 24;  // half a GiB
+  if (uint64_t(slots_[size_t(Rate::light)]) * scene_.lights.size() > kMost)
+    throw Error(ErrorKind::limit, program_.name, "has too many operations of lights alone for so many lights",
+                "judge it under fewer lights");
   for (uint32_t i = 0; i < scene_.lights.size(); ++i) {
     std::vector<Interval>& values = light_values_.emplace_back(slots_[size_t(Rate::light)]);
     for (NodeId id = 0; id < program_.nodes.size(); ++id) {
@@ -293,15 +325,21 @@ Interval ProgramBounds::evaluated(const Step& step, const Values& values, std::v
       const Interval& x = at(term.from);
       terms.push_back(term.negated ? Interval{-x.value, -x.high, -x.low, x.maybe_nan} : x);
     }
-    Interval out = of_.sum(terms);
-    if (step.mixed == 0) return out;
-    const ProgramMix& mix = mixes_[step.mixed - 1];
-    const double other = 2 * arithmetic_.roundoff * at(mix.a).size() * (at(mix.x).size() + at(mix.y).size());
-    out.low -= other, out.high += other;
-    return out;
+    double other = 0;
+    for (uint32_t i = 0; i < step.mixes; ++i) {
+      const ProgramMix& mix = mixes_[step.first_mix + i];
+      other += 2 * arithmetic_.roundoff * at(mix.a).size() * (at(mix.x).size() + at(mix.y).size());
+    }
+    return of_.sum(terms, other);
   }
   if (step.squares) return of_.square(at(step.from[0]));
+  if (step.of_itself) {
+    const bool nan = at(step.from[0]).maybe_nan, holds = step.node.op == Op::f_eq || step.node.op == Op::f_le;
+    const bool same = step.node.op == Op::f_lt ? false : holds;
+    return {same ? 1.0 : 0.0, same && !nan ? 1.0 : 0.0, same || (nan && step.node.op == Op::f_ne) ? 1.0 : 0.0, false};
+  }
   Interval out = of_(step.node, at(step.from[0]), at(step.from[1]), at(step.from[2]));
+  if (step.chained) out = of_.reordered(out);
   if (step.of_unit_vector && !out.maybe_nan) {  // however far the vector is off: |v_k| <= |v|, and some roundings
     const double most = largest_of_unit(arithmetic_);
     out.low = std::clamp(out.low, -most, most), out.high = std::clamp(out.high, -most, most);
@@ -322,7 +360,8 @@ void ProgramBounds::run_pair(std::span<const Step> steps, Registers& r, bool fol
   for (const Step& step : steps) {
     Interval& x = out[step.slot];
     x = evaluated(step, values, r.terms);
-    if (!follow || info(step.node.op).result != programs::Type::boolean || step.node.op == Op::select || x.known()) continue;
+    if (!follow || info(step.node.op).result != programs::Type::boolean || step.node.op == Op::select || x.known())
+      continue;
     if (step.node.op >= Op::b_and && step.node.op <= Op::b_not) continue;  // of comparisons, which are open
     if (r.decided[step.slot] >= 0)
       x = Interval::of(r.decided[step.slot]);
@@ -343,11 +382,13 @@ ProgramBounds::Outcome ProgramBounds::outcome(Registers& r) const {
 }
 
 /// What one light may add: one result for each way that its open comparisons may go.
-std::vector<ProgramBounds::Outcome> ProgramBounds::outcomes(Registers& r, size_t& nominal) const {
+std::vector<ProgramBounds::Outcome> ProgramBounds::outcomes(Registers& r, size_t& nominal, Interval& counted) const {
   nominal = 0;
   r.open.clear();
   run_pair(of_pairs_, r, true);
   std::vector<Outcome> out{outcome(r)};
+  run_pair(of_reaches_, r, false);
+  counted = output(programs::kReachesOutput, values_of(r));
   const std::vector<uint32_t> open = r.open;
   if (open.empty() || open.size() > kMostForks) return out;
   out.clear();
@@ -357,6 +398,8 @@ std::vector<ProgramBounds::Outcome> ProgramBounds::outcomes(Registers& r, size_t
     for (size_t i = 0; i < open.size(); ++i) r.decided[open[i]] = int8_t(set >> i & 1);
     run_pair(of_pairs_, r, true);
     out.push_back(outcome(r));
+    run_pair(of_reaches_, r, false);
+    counted = hull(counted, output(programs::kReachesOutput, values_of(r)));
   }
   for (const uint32_t slot : open) r.decided[slot] = -1;
   return out;
@@ -418,9 +461,8 @@ LitRange ProgramBounds::at(const ShadedSurface& surface, std::span<const uint32_
     if (reach == Reach::none) continue;
     r.light = i;
     size_t nominal = 0;
-    const std::vector<Outcome> all = outcomes(r, nominal);
-    run_pair(of_reaches_, r, false);
-    const Interval counted = output(programs::kReachesOutput, values_of(r));
+    Interval counted;
+    const std::vector<Outcome> all = outcomes(r, nominal, counted);
     if (reach == Reach::surely && counted.is_true()) ++total.lit.lights_low;
     if (!counted.is_false()) ++total.lit.lights_high;
     const bool is_in = reach != Reach::perhaps_not_nominally;
@@ -507,7 +549,8 @@ void ProgramBounds::at(std::span<const ShadedSurface* const> surfaces, std::span
     ProgramTotal total;
     for (int k = 0; k < 3; ++k) {
       const Place& p = place_[program_.output[size_t(programs::kStartOutput + k)]];
-      total.start(size_t(k), lanes.lanes[p.rate] != nullptr ? lanes.lanes[p.rate][p.slot].at(i) : lanes.one[p.rate][p.slot]);
+      total.start(size_t(k),
+                  lanes.lanes[p.rate] != nullptr ? lanes.lanes[p.rate][p.slot].at(i) : lanes.one[p.rate][p.slot]);
     }
     total.add(sums[i]);
     lit[i] = total.finished(arithmetic_.roundoff);
@@ -520,7 +563,7 @@ ProgramBounds::Finished ProgramBounds::finished(const ShadedSurface& surface, co
     out.color = surface.albedo;
     return out;
   }
-  if (!of_sums_.empty()) look_at(surface, r);
+  if (program_.defines_finish) look_at(surface, r);
   std::vector<Interval>& own = r.of[size_t(Rate::sum)];
   own.resize(slots_[size_t(Rate::sum)]);
   for (const auto& [slot, channel] : sum_inputs_) own[slot] = interval_of(sum[channel]);
@@ -528,7 +571,8 @@ ProgramBounds::Finished ProgramBounds::finished(const ShadedSurface& surface, co
   run(of_sums_, own, values, r.terms);
   for (size_t k = 0; k < 4; ++k) {
     const Interval& x = output(programs::kFinishOutput + int(k), values);
-    out.color[k] = bounded_of(x), out.undefined = out.undefined || x.maybe_nan;
+    out.color[k] = bounded_of(x);
+    out.undefined = out.undefined || x.maybe_nan || !std::isfinite(out.color[k].error);
   }
   if (!program_.defines_finish && alpha_from_albedo_) out.color[3] = surface.albedo[3];
   return out;

@@ -19,7 +19,8 @@ Pipeline with_planes_that_program_reads(const Pipeline& pipeline);
 /// A light program over the lights of a scene, ready for any surface. Borrows the scene, which must outlive it.
 ///
 /// A sum is what its terms are in any order, unless the source says `precise`. Where a comparison may go either way,
-/// each way is followed: up to kMostForks comparisons of one light, beyond that what holds both results of every choice.
+/// each way is followed: up to kMostForks comparisons of one light, beyond that what holds both results of every
+/// choice.
 class ProgramBounds {
  public:
   static constexpr size_t kMostForks = 4;
@@ -27,8 +28,8 @@ class ProgramBounds {
   /// One thread's values: of a surface, and of the pair that is looked at. Of the bounds that filled it alone.
   struct Registers {
     std::array<std::vector<Interval>, programs::kRateCount> of;
-    std::vector<int8_t> decided;    ///< of the pair's nodes: 0 false, 1 true, -1 not decided
-    std::vector<uint32_t> open;     ///< comparisons of the pair that may go either way
+    std::vector<int8_t> decided;  ///< of the pair's nodes: 0 false, 1 true, -1 not decided
+    std::vector<uint32_t> open;   ///< comparisons of the pair that may go either way
     std::vector<Interval> terms;
     uint32_t light = 0;
   };
@@ -85,7 +86,9 @@ class ProgramBounds {
 
   void make_steps();
   using SumTerm = std::pair<programs::NodeId, bool>;  ///< true: negated
-  void gather(programs::NodeId id, bool negated, std::vector<SumTerm>& out, size_t depth = 0) const;
+  std::vector<SumTerm> terms_of(programs::NodeId id) const;
+  void gather(programs::NodeId id, bool negated, std::vector<SumTerm>& out, size_t depth, size_t& visits) const;
+  void find_mixes(programs::NodeId id, size_t depth, size_t& visits, std::vector<ProgramMix>& out) const;
   void find_patterns(programs::NodeId id, Step& step);
   bool is_unit_component(const programs::ProgramNode& product) const;
   void set_constants(const Scene& scene, const Pipeline& pipeline);
@@ -96,14 +99,14 @@ class ProgramBounds {
            std::vector<Interval>& terms) const;
   void run_pair(std::span<const Step> steps, Registers& registers, bool follow) const;
   Outcome outcome(Registers& registers) const;
-  std::vector<Outcome> outcomes(Registers& registers, size_t& nominal) const;
+  std::vector<Outcome> outcomes(Registers& registers, size_t& nominal, Interval& counted) const;
   void look_at(const ShadedSurface& surface, Registers& registers) const;
   ProgramLanes lanes_of(std::span<const Step> steps, programs::Rate rate, Block& block, uint32_t light,
                         uint8_t* left) const;
   void look_at(std::span<const ShadedSurface* const> surfaces, Block& block) const;
   bool find_reached(const Light& light, std::span<const ShadedSurface* const> surfaces, Block& block) const;
   void add(uint32_t light, size_t count, Block& block, std::span<BlockSum> sums) const;
-  
+
   Reach reach_of(const Light& light, const ShadedSurface& surface) const;
   const Interval& output(int number, const Values& values) const;
 

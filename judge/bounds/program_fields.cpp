@@ -27,21 +27,23 @@ struct Row {
 };
 
 using S = const ShadedSurface&;
-constexpr Row<SurfaceField> kSurface[] = {
-    {"position", [](S s, size_t c) { return interval_of(s.position[c]); }},
-    {"normal", [](S s, size_t c) { return interval_of(s.normal[c]); }},
-    {"albedo", [](S s, size_t c) { return interval_of(s.albedo[c]); }},
-    {"specular", [](S s, size_t c) { return interval_of(s.specular[c]); }},
-    {"shininess", [](S s, size_t) { return interval_of({s.shininess, s.shininess_error}); }},
-    {"metallic", [](S s, size_t) { return interval_of(s.specular[0]); }},
-    {"roughness", [](S s, size_t) { return interval_of(s.specular[1]); }},
-    {"occlusion", [](S s, size_t) { return interval_of(s.ambient_share); }},
-    {"emission", [](S s, size_t c) { return interval_of(s.emission[c]); }},
-    {"uv", [](S s, size_t c) { return interval_of(s.uv[c]); }},
-    {"object", [](S s, size_t) { return Interval::of(s.object); }},
-    {"material", [](S s, size_t) { return Interval::of(s.material); }},
-    {"pixel_x", [](S s, size_t) { return Interval::of(s.pixel[0]); }},
-    {"pixel_y", [](S s, size_t) { return Interval::of(s.pixel[1]); }}};
+constexpr Row<SurfaceField> kSurface[] = {{"position", [](S s, size_t c) { return interval_of(s.position[c]); }},
+                                          {"normal", [](S s, size_t c) { return interval_of(s.normal[c]); }},
+                                          {"albedo", [](S s, size_t c) { return interval_of(s.albedo[c]); }},
+                                          {"specular", [](S s, size_t c) { return interval_of(s.specular[c]); }},
+                                          {"shininess",
+                                           [](S s, size_t) {
+                                             return interval_of({s.shininess, s.shininess_error});
+                                           }},
+                                          {"metallic", [](S s, size_t) { return interval_of(s.specular[0]); }},
+                                          {"roughness", [](S s, size_t) { return interval_of(s.specular[1]); }},
+                                          {"occlusion", [](S s, size_t) { return interval_of(s.ambient_share); }},
+                                          {"emission", [](S s, size_t c) { return interval_of(s.emission[c]); }},
+                                          {"uv", [](S s, size_t c) { return interval_of(s.uv[c]); }},
+                                          {"object", [](S s, size_t) { return Interval::of(s.object); }},
+                                          {"material", [](S s, size_t) { return Interval::of(s.material); }},
+                                          {"pixel_x", [](S s, size_t) { return Interval::of(s.pixel[0]); }},
+                                          {"pixel_y", [](S s, size_t) { return Interval::of(s.pixel[1]); }}};
 
 double outer_cosine(const Light& l) { return std::cos(double(l.cone_rad) + double(l.penumbra_rad)); }
 double cone_width(const Light& l) { return 1 / std::max(0.001, std::cos(double(l.cone_rad)) - outer_cosine(l)); }
@@ -73,8 +75,8 @@ constexpr Row<LightField> kLight[] = {
 
 template <class Field, size_t N>
 Field found(const Row<Field> (&rows)[N], std::string_view name) {
-  const auto row = std::find_if(std::begin(rows), std::end(rows),
-                                [name](const Row<Field>& r) { return r.name == field_of(name); });
+  const auto row =
+      std::find_if(std::begin(rows), std::end(rows), [name](const Row<Field>& r) { return r.name == field_of(name); });
   if (row == std::end(rows))
     throw Error(ErrorKind::bad_input, std::string(name), "is a field that nothing gives", "another field");
   return {row->of, component_of(name)};

@@ -29,8 +29,10 @@ struct ProgramStep {
   std::array<ProgramPlace, 3> from{};
   uint32_t slot = 0;
   uint32_t first_term = 0, terms = 0;  ///< of a sum in any order
-  uint32_t mixed = 0;                  ///< of mix(): one more than its place among the mixes
+  uint32_t first_mix = 0, mixes = 0;   ///< of a sum: the mix()es in it
   bool squares = false;                ///< a product of a value with itself
+  bool chained = false;                ///< a product of a product, whose factors may stand in another order
+  bool of_itself = false;              ///< a comparison of a value with itself, which tells NaN
   bool of_unit_vector = false;         ///< a component of what normalize() makes
   bool normalizes = false;             ///< the choice of normalize(): undefined of a vector of no length
 };

@@ -66,7 +66,8 @@ class Lanes {
   V to_floats(V x, int64_t positive, int64_t negative) const {
     constexpr int64_t kBelow = (int64_t(1) << 29) - 1;
     const DI d;
-    const VI more = hn::IfThenElse(hn::RebindMask(d, hn::Lt(x, hn::Zero(D()))), hn::Set(d, negative), hn::Set(d, positive));
+    const VI more =
+        hn::IfThenElse(hn::RebindMask(d, hn::Lt(x, hn::Zero(D()))), hn::Set(d, negative), hn::Set(d, positive));
     return hn::BitCast(D(), hn::And(hn::Add(hn::BitCast(d, x), more), hn::Set(d, ~kBelow)));
   }
 
@@ -82,14 +83,24 @@ class Lanes {
   Three in_floats(Three x) const {
     const V zero = hn::Zero(D()), least = number(kSmallestFloat);
     const V most = number(double(std::numeric_limits<float>::max()));
+    const M wrong = hn::Or(hn::IsNaN(x.low), hn::IsNaN(x.high));
     const auto small = [&](V v) { return hn::Lt(hn::Abs(v), least); };
     x.low = hn::IfThenElse(small(x.low), hn::IfThenElse(hn::Lt(x.low, zero), hn::Neg(least), zero), x.low);
     x.high = hn::IfThenElse(small(x.high), hn::IfThenElse(hn::Gt(x.high, zero), least, zero), x.high);
     x.high = hn::IfThenElse(hn::Gt(x.high, most), number(HUGE_VAL), x.high);
     x.low = hn::IfThenElse(hn::Lt(x.low, hn::Neg(most)), number(-HUGE_VAL), x.low);
     x.low = hn::Min(x.low, most), x.high = hn::Max(x.high, hn::Neg(most));
-    const M wrong = hn::Or(hn::IsNaN(x.low), hn::IsNaN(x.high));
     return chosen(wrong, anything(x.value), x);
+  }
+
+  /// maybe_fused() of interval.h.
+  Three maybe_fused(const Three& exact) const {
+    Three out = rounded(exact);
+    if (in_.arithmetic.exact_pow) return out;
+    const M known = hn::Not(is_anything(out));
+    out.low = hn::IfThenElse(known, hn::Min(out.low, exact.low), out.low);
+    out.high = hn::IfThenElse(known, hn::Max(out.high, exact.high), out.high);
+    return out;
   }
 
   /// within() of interval.h without an absolute error.
@@ -119,14 +130,17 @@ class Lanes {
     const V zero = hn::Zero(D()), unit = number(double(step.terms - 2) * in_.arithmetic.roundoff);
     const V partial = hn::Mul(unit, magnitude);
     if (step.terms > 2) out.low = hn::Sub(out.low, partial), out.high = hn::Add(out.high, partial);
+    M wrong = hn::Ne(zero, zero);
+    for (uint32_t k = 0; k < step.mixes; ++k) {
+      const ProgramMix& mix = in_.mixes[step.first_mix + k];
+      const V factors = hn::Mul(size_of(load(mix.a, i)), hn::Add(size_of(load(mix.x, i)), size_of(load(mix.y, i))));
+      const V other = hn::Mul(number(2 * in_.arithmetic.roundoff), factors);
+      wrong = hn::Or(wrong, hn::Not(hn::Lt(other, number(HUGE_VAL))));
+      out.low = hn::Sub(out.low, other), out.high = hn::Add(out.high, other);
+    }
     out.low = hn::IfThenElse(hn::Ge(least, zero), hn::Max(out.low, zero), out.low);
     out.high = hn::IfThenElse(hn::Le(most, zero), hn::Min(out.high, zero), out.high);
-    out = rounded(out);
-    if (step.mixed == 0) return out;
-    const ProgramMix& mix = in_.mixes[step.mixed - 1];
-    const V factors = hn::Mul(size_of(load(mix.a, i)), hn::Add(size_of(load(mix.x, i)), size_of(load(mix.y, i))));
-    const V other = hn::Mul(number(2 * in_.arithmetic.roundoff), factors);
-    return {out.value, hn::Sub(out.low, other), hn::Add(out.high, other)};
+    return chosen(wrong, anything(out.value), rounded(out));
   }
 
   Three two_terms(const Three& x, const Three& y) const {
@@ -149,10 +163,12 @@ class Lanes {
     if (step.squares) {
       const M across = hn::And(hn::Le(x.low, hn::Zero(D())), hn::Ge(x.high, hn::Zero(D())));
       const V least = hn::IfThenZeroElse(across, hn::Min(hn::Abs(x.low), hn::Abs(x.high))), most = size_of(x);
-      const Three out = rounded({hn::Mul(x.value, x.value), hn::Mul(least, least), hn::Mul(most, most)});
+      const Three out = maybe_fused({hn::Mul(x.value, x.value), hn::Mul(least, least), hn::Mul(most, most)});
       return chosen(is_anything(x), x, out);
     }
-    return rounded(of_corners(x, y, [](V a, V b) { return hn::Mul(a, b); }));
+    const Three out = maybe_fused(of_corners(x, y, [](V a, V b) { return hn::Mul(a, b); }));
+    if (!step.chained) return out;
+    return chosen(is_anything(out), out, within(out, in_.arithmetic.roundoff));
   }
 
   Three quotient(const Three& x, const Three& y) const {
@@ -168,11 +184,13 @@ class Lanes {
 
   Three root(const Three& x, bool inverse) const {
     const V zero = hn::Zero(D()), one = number(1);
-    const M wrong = hn::Lt(x.low, zero);
+    const bool none_of_zero = inverse && !in_.arithmetic.exact_pow;
+    const M wrong = none_of_zero ? hn::Le(x.low, zero) : hn::Lt(x.low, zero);
     const V low = hn::Max(x.low, zero), high = hn::Max(x.high, zero), value = hn::Max(x.value, zero);
     Three out{hn::Sqrt(value), hn::Sqrt(low), hn::Sqrt(high)};
     if (inverse) {
-      out = {hn::IfThenElseZero(hn::Gt(value, zero), hn::Div(one, out.value)), hn::Div(one, out.high), hn::Div(one, out.low)};
+      out = {hn::IfThenElseZero(hn::Gt(value, zero), hn::Div(one, out.value)), hn::Div(one, out.high),
+             hn::Div(one, out.low)};
       out = within(out, in_.arithmetic.inverse_sqrt);
     } else {
       out = in_.arithmetic.square_root <= 0x1p-24 ? rounded(out) : within(out, in_.arithmetic.square_root);
@@ -192,7 +210,8 @@ class Lanes {
           if (is_open[k] != 0) in_.left[i + k] = 1;
       }
     }
-    return {hn::IfThenElse(nominal, one, zero), hn::IfThenElse(perhaps_not, zero, one), hn::IfThenElse(perhaps, one, zero)};
+    return {hn::IfThenElse(nominal, one, zero), hn::IfThenElse(perhaps_not, zero, one),
+            hn::IfThenElse(perhaps, one, zero)};
   }
 
   Three compared(Op op, const Three& x, const Three& y, size_t i) const {
@@ -201,15 +220,25 @@ class Lanes {
     const M nan = hn::Or(is_anything(x), is_anything(y));
     switch (op) {
       case Op::f_eq:
-      case Op::i_eq:
         return truth(hn::Eq(x.value, y.value), overlap, hn::Not(same), i);
       case Op::f_ne:
         return truth(hn::Ne(x.value, y.value), hn::Not(same), overlap, i);
       case Op::f_le:
-        return truth(hn::Le(x.value, y.value), hn::Or(nan, hn::Le(x.low, y.high)), hn::Or(nan, hn::Gt(x.high, y.low)), i);
+        return truth(hn::Le(x.value, y.value), hn::Or(nan, hn::Le(x.low, y.high)), hn::Or(nan, hn::Gt(x.high, y.low)),
+                     i);
       default:
-        return truth(hn::Lt(x.value, y.value), hn::Or(nan, hn::Lt(x.low, y.high)), hn::Or(nan, hn::Ge(x.high, y.low)), i);
+        return truth(hn::Lt(x.value, y.value), hn::Or(nan, hn::Lt(x.low, y.high)), hn::Or(nan, hn::Ge(x.high, y.low)),
+                     i);
     }
+  }
+
+  /// A comparison of a value with itself, which only NaN makes another.
+  Three of_itself(Op op, const Three& x) const {
+    const V one = number(1), zero = hn::Zero(D());
+    const M nan = is_anything(x);
+    if (op == Op::f_lt) return {zero, zero, zero};
+    if (op == Op::f_ne) return {zero, zero, hn::IfThenElse(nan, one, zero)};
+    return {one, hn::IfThenElse(nan, zero, one), one};
   }
 
   Three selected(const Three& condition, const Three& x, const Three& y) const {
@@ -271,8 +300,12 @@ class Lanes {
     const auto at = [&](const ProgramPlace& p, size_t lane) {
       return in_.lanes[p.rate] != nullptr ? in_.lanes[p.rate][p.slot].at(lane) : in_.one[p.rate][p.slot];
     };
-    for (size_t lane = i; lane < i + hn::Lanes(D()); ++lane)
-      in_.out[step.slot].set(lane, of(step.node, at(step.from[0], lane), at(step.from[1], lane), at(step.from[2], lane)));
+    for (size_t lane = i; lane < i + hn::Lanes(D()); ++lane) {
+      const Interval x = of(step.node, at(step.from[0], lane), at(step.from[1], lane), at(step.from[2], lane));
+      in_.out[step.slot].set(lane, x);
+      const bool compares = step.node.op == Op::i_eq || step.node.op == Op::i_lt || step.node.op == Op::u_lt;
+      if (compares && in_.left != nullptr && !x.known()) in_.left[lane] = 1;
+    }
   }
 
   void run(const ProgramStep& step, size_t i) const {
@@ -319,14 +352,11 @@ class Lanes {
       case Op::f_ne:
       case Op::f_lt:
       case Op::f_le:
-      case Op::i_eq:
-      case Op::i_lt:
-      case Op::u_lt:
+        if (step.of_itself) return store(step, i, of_itself(op, x));
         return store(step, i, compared(op, x, load(step.from[1], i), i));
       case Op::select: {
         Three out = selected(x, load(step.from[1], i), load(step.from[2], i));
-        if (step.normalizes && !in_.arithmetic.exact_pow)
-          out = chosen(hn::Gt(x.low, zero), out, anything(out.value));
+        if (step.normalizes && !in_.arithmetic.exact_pow) out = chosen(hn::Gt(x.low, zero), out, anything(out.value));
         return store(step, i, out);
       }
       case Op::b_not:

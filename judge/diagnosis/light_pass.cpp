@@ -179,6 +179,7 @@ std::vector<LightAdded> lights_added(const LightPass& pass, const PlainSurface& 
   const PredictedTerms maker(pass, surface);
   const bool last = pass.pipeline.light_model.order == TermOrder::albedo_last;
   std::vector<LightAdded> added;
+  if (pass.program != nullptr && surface.unlit) return added;
   for (uint32_t i = 0; i < pass.lights.size(); ++i) {
     const int fragments = maker.fragments(surface, pass.lights[i]);
     Triple3 term = fragments > 0 ? times(maker.term(surface, pass.lights[i]), fragments) : Triple3{};

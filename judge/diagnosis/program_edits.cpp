@@ -18,6 +18,8 @@ using programs::ProgramNode;
 using programs::Rate;
 using programs::Type;
 
+constexpr size_t kMostSteps = 300;  // of a program whose operands are tried: they are the square of these
+
 /// The steps that light() depends on.
 std::vector<bool> needed_by_light(const Program& program) {
   std::vector<bool> needed(program.nodes.size(), false);
@@ -69,7 +71,8 @@ class EditList {
 
   /// The choice of normalize(): 0 < l2 ? inversesqrt(l2) : 0.
   bool normalizes() const {
-    return first().op == Op::select && at(first().operand[1]).op == Op::f_inverse_sqrt && is_number(first().operand[2], 0);
+    return first().op == Op::select && at(first().operand[1]).op == Op::f_inverse_sqrt &&
+           is_number(first().operand[2], 0);
   }
 
   void of_operation() {
@@ -140,6 +143,7 @@ class EditList {
     add(ProgramChange::root, "has the root of a value where it should have the value");
     for (size_t k = 0; k < first().operands().size(); ++k) {
       if (at(first().operand[k]).op == Op::constant || first().operand[0] == first().operand[1]) continue;
+      if (info(first().op).operand[k] != Type::f32) continue;
       add(ProgramChange::square_of_operand, "has the square of a value where it should have the value").operand = k;
       add(ProgramChange::root_of_operand, "has the root of a value where it should have the value").operand = k;
     }
@@ -154,7 +158,9 @@ class EditList {
   /// A value of the same kind: a scalar that is bounded or a product of vectors, or a vector of unit length.
   void of_operands() {
     if (first().type != Type::f32 || first().op == Op::select) return;
+    if (steps_.size() > kMostSteps) return;
     for (size_t k = 0; k < first().operands().size(); ++k) {
+      if (info(first().op).operand[k] != Type::f32) continue;
       if (nodes_.size() == 1) {
         for (const auto& step : steps_)
           if (step.size() == 1 && may_stand(step[0]) && at(step[0]).line <= first().line) take({step[0]}, k);
@@ -181,9 +187,10 @@ class EditList {
       if (others[i] >= nodes_[i] || !keeps_rate(nodes_[i], others[i]) || at(nodes_[i]).operand[operand] == others[i] ||
           at(at(nodes_[i]).operand[operand]).op == Op::constant)
         return;
-    ProgramEdit& edit = add(ProgramChange::other_operand,
-                            "has the value of line " + std::to_string(at(others[0]).line) + " as an operand where it "
-                            "should have another");
+    ProgramEdit& edit =
+        add(ProgramChange::other_operand, "has the value of line " + std::to_string(at(others[0]).line) +
+                                              " as an operand where it "
+                                              "should have another");
     edit.operand = operand, edit.others = others;
   }
 

@@ -12,8 +12,9 @@ namespace trueshade::oracle {
 
 namespace {
 
-constexpr int kSide = 8;                   // of a square, pixels
+constexpr int kSide = 8;  // of a square, pixels
 constexpr size_t kWrongSquares = 8, kRightSquares = 3;
+constexpr size_t kMostTries = 20'000;  // a try takes some 0.1 ms of a program of 100 operations
 constexpr double kLeastExplained = 1.0 / 3;
 constexpr double kExplanation = 0.9;  // above it, operands are not tried: they are many
 constexpr double kKnown = 1.0 / 512;  // a color that is known no better explains nothing
@@ -58,14 +59,15 @@ class ProgramSearch {
     double best = 0;
     for (ProgramEdit& edit : program_edits(right_.program())) {
       const bool is_last_resort = edit.change == ProgramChange::scaled || edit.change == ProgramChange::other_operand;
-      if (is_last_resort && best > kExplanation) break;
+      if ((is_last_resort && best > kExplanation) || tries_ > kMostTries) break;
       if (edit.fitted && !fit(edit)) continue;
       if (match_of(edited(right_.program(), edit), first).explained < kLeastExplained / 2) continue;
       const Match match = match_of(edited(right_.program(), edit), squares_);
       best = std::max(best, match.score());
       if (match.explained >= kLeastExplained) found.emplace_back(match, std::move(edit));
     }
-    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first.score() > b.first.score(); });
+    std::stable_sort(found.begin(), found.end(),
+                     [](const auto& a, const auto& b) { return a.first.score() > b.first.score(); });
     std::vector<Finding> out;
     for (const auto& [match, edit] : found) {
       if (out.size() == most) break;
@@ -160,6 +162,7 @@ class ProgramSearch {
   }
 
   Match match_of(programs::Program program, std::span<const Square> squares) {
+    ++tries_;
     const ProgramBounds bounds(scene_, pipeline_, profile_.arithmetic, std::move(program));
     size_t wrong = 0, right = 0, explained = 0, contradicted = 0;
     for (const Square& square : squares) {
@@ -177,6 +180,7 @@ class ProgramSearch {
 
   /// How far a program's picture is off, of samples that are wrong: a part of the values, at most 1 each.
   double distance(const ProgramEdit& edit, std::span<const Square> squares) {
+    ++tries_;
     const ProgramBounds bounds(scene_, pipeline_, profile_.arithmetic, edited(right_.program(), edit));
     double sum = 0;
     for (const Square& square : squares) {
@@ -194,8 +198,9 @@ class ProgramSearch {
   /// Finds the number of a constant: a factor on a grid, and between its neighbours by golden section. False where the
   /// right number is as good.
   bool fit(ProgramEdit& edit) {
-    constexpr double kGrid[] = {-1, 0, 0.05, 0.1, 0.2, 0.25, 0.3333, 0.5, 0.67, 0.8, 0.9, 0.95, 0.98, 0.99, 0.997, 0.999,
-                                1.001, 1.003, 1.01, 1.02, 1.05, 1.1, 1.25, 1.5, 2, 3, 4, 5, 10, 20};
+    constexpr double kGrid[] = {-1,   0,    0.05, 0.1,  0.2,   0.25,  0.3333, 0.5,   0.67, 0.8,
+                                0.9,  0.95, 0.98, 0.99, 0.997, 0.999, 1.001,  1.003, 1.01, 1.02,
+                                1.05, 1.1,  1.25, 1.5,  2,     3,     4,      5,     10,   20};
     const double right = edit.number != 0 ? edit.number : 1;
     const std::span<const Square> some(squares_.data(), 1);
     const double now = distance(edit, some);
@@ -240,8 +245,8 @@ class ProgramSearch {
   }
 
   std::string text_of(const ProgramEdit& edit) const {
-    std::string text = "line " + std::to_string(edit.line) + " of " + right_.program().name + ", `" +
-                       source_line(edit.line) + "`, ";
+    std::string text =
+        "line " + std::to_string(edit.line) + " of " + right_.program().name + ", `" + source_line(edit.line) + "`, ";
     if (!edit.fitted) return text + edit.text;
     if (edit.change == ProgramChange::scaled)
       return text + "has " + number_text(edit.number) + " times the value that it should have";
@@ -272,7 +277,7 @@ class ProgramSearch {
           const double given = square.samples[i].stored[k], off = std::fabs(given - right[i].texel[k].nominal);
           if (!(off > farthest)) continue;
           farthest = off;
-          proof = {square.samples[i].x, square.samples[i].y, channel_of("color", int(k)), given,
+          proof = {square.samples[i].x,       square.samples[i].y,      channel_of("color", int(k)), given,
                    right[i].texel[k].nominal, wrong[i].texel[k].nominal};
         }
     }
@@ -287,6 +292,7 @@ class ProgramSearch {
   const ProgramBounds right_;
   std::vector<Square> squares_;
   ProgramBounds::Block block_;
+  size_t tries_ = 0;
 };
 
 }  // namespace

@@ -132,8 +132,7 @@ void TransparentLayers::shade_by_program(ShadedSurface surface, TransparentLayer
   for (const OtherBranch& branch : lit.branches)
     for (size_t k = 0; k < 3; ++k) lit.color[k].error += std::fabs(branch.change[k]);
   const ProgramBounds::Finished all = program_->finished(surface, lit.color, registers);
-  for (size_t k = 0; k < 4; ++k)
-    layer.nominal[k] = range_of(nominal.color[k]), layer.other[k] = range_of(all.color[k]);
+  for (size_t k = 0; k < 4; ++k) layer.nominal[k] = range_of(nominal.color[k]), layer.other[k] = range_of(all.color[k]);
   layer.undefined = layer.undefined || lit.undefined || nominal.undefined || all.undefined ||
                     !are_numbers(layer.nominal) || !are_numbers(layer.other);
 }

@@ -59,7 +59,8 @@ LightProgram light_program_of(const py::object& shader, const py::object& parame
                                 : given;
     const size_t count = py::len(list);
     if (count < 1 || count > 4)
-      throw bad_argument("light_parameters", "'" + parameter.name + "' has " + std::to_string(count) + " numbers", "1 to 4");
+      throw bad_argument("light_parameters", "'" + parameter.name + "' has " + std::to_string(count) + " numbers",
+                         "1 to 4");
     for (const double number : numbers_of(list, "light_parameters", count)) parameter.value.push_back(float(number));
     program.parameters.push_back(std::move(parameter));
   }

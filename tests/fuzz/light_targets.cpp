@@ -21,14 +21,13 @@ struct Given {
   const char* name;
   float value;
 };
-constexpr Given kGiven[] = {
-    {"surface.position.x", 0.3f}, {"surface.position.y", -0.2f}, {"surface.position.z", 0.5f},
-    {"surface.normal.x", 0.6f},   {"surface.normal.y", 0.0f},    {"surface.normal.z", 0.8f},
-    {"surface.albedo.x", 0.9f},   {"surface.albedo.y", 0.5f},    {"surface.albedo.z", 0.25f},
-    {"surface.albedo.w", 1.0f},   {"surface.metallic", 0.5f},    {"surface.roughness", 0.4f},
-    {"light.position.x", 2.0f},   {"light.position.y", 1.5f},    {"light.position.z", 3.0f},
-    {"light.color.x", 1.0f},      {"light.color.y", 0.75f},      {"light.color.z", 0.5f},
-    {"light.range", 9.0f},        {"light.direction.z", -1.0f},  {"light.attenuation.x", 1.0f}};
+constexpr Given kGiven[] = {{"surface.position.x", 0.3f}, {"surface.position.y", -0.2f}, {"surface.position.z", 0.5f},
+                            {"surface.normal.x", 0.6f},   {"surface.normal.y", 0.0f},    {"surface.normal.z", 0.8f},
+                            {"surface.albedo.x", 0.9f},   {"surface.albedo.y", 0.5f},    {"surface.albedo.z", 0.25f},
+                            {"surface.albedo.w", 1.0f},   {"surface.metallic", 0.5f},    {"surface.roughness", 0.4f},
+                            {"light.position.x", 2.0f},   {"light.position.y", 1.5f},    {"light.position.z", 3.0f},
+                            {"light.color.x", 1.0f},      {"light.color.y", 0.75f},      {"light.color.z", 0.5f},
+                            {"light.range", 9.0f},        {"light.direction.z", -1.0f},  {"light.attenuation.x", 1.0f}};
 
 float given(std::string_view name) {
   for (const Given& g : kGiven)
@@ -75,7 +74,8 @@ void check_bounds(const programs::Program& program) {
   programs::Numbers numbers;
   for (const programs::ProgramInput& input : program.inputs) {
     if (input.name.starts_with("parameters."))
-      pipeline.light_program.parameters.push_back({input.name.substr(11, input.name.find_first_of(".[", 11) - 11), {0, 0, 0, 0}});
+      pipeline.light_program.parameters.push_back(
+          {input.name.substr(11, input.name.find_first_of(".[", 11) - 11), {0, 0, 0, 0}});
     numbers[input.name] = std::bit_cast<uint32_t>(given(input.name));
   }
   static const Scene lit = scene();

@@ -6,9 +6,9 @@
 #include <iterator>
 
 #include "core/simd/simd_target.h"
+#include "judge/bounds/profile.h"
 #include "judge/bounds/program_bounds.h"
 #include "judge/diagnosis/finding.h"
-#include "judge/bounds/profile.h"
 #include "judge/stages/validate.h"
 #include "programs/front/light_program.h"
 #include "scenes/builtin/builtin.h"
@@ -178,7 +178,8 @@ Held held(const std::string& name, int surfaces, uint64_t seed) {
 }
 
 void check_held(int surfaces) {
-  for (const char* name : {"mixture", "many_lights", "light_volumes", "ggx", "ggx_of_docs", "filament", "disney", "frostbite", "bevy"}) {
+  for (const char* name :
+       {"mixture", "many_lights", "light_volumes", "ggx", "ggx_of_docs", "filament", "disney", "frostbite", "bevy"}) {
     const Held h = held(name, surfaces, 11);
     INFO(name << ": asked " << h.asked << ", undefined " << h.undefined << ", at a threshold " << h.branches
               << ", the farthest " << h.used << " of its bound");
@@ -364,9 +365,11 @@ Found found_slips(size_t step) {
     const Capture capture = captured(scene, pipeline_of(wrong, Format::rgba8));
     const Verdict verdict = judged(scene, pipeline_of(model(slip.model), Format::rgba8), capture);
     ++planted, convicted += verdict.violations() > 0 || verdict.convicted();
-    if (verdict.violations() == 0 && !verdict.convicted()) WARN("not convicted: " << slip.right << " as " << slip.wrong);
+    if (verdict.violations() == 0 && !verdict.convicted())
+      WARN("not convicted: " << slip.right << " as " << slip.wrong);
     CHECK(verdict.stages.at(0).count(PixelClass::violation) == 0);  // the surfaces are right
-    const std::string line = std::to_string(1 + std::count(wrong.text.begin(), wrong.text.begin() + ptrdiff_t(at), '\n'));
+    const std::string line =
+        std::to_string(1 + std::count(wrong.text.begin(), wrong.text.begin() + ptrdiff_t(at), '\n'));
     const std::vector<Finding> findings =
         diagnose(scene, pipeline_of(model(slip.model), Format::rgba8), Profile{}, capture, verdict.stages);
     const bool first = !findings.empty() && findings[0].text.starts_with("line " + line + " of ");
@@ -395,9 +398,11 @@ TEST_CASE("Of 30 slips in lights' GLSL 29 are convicted, and of 27 the line is n
 }
 
 TEST_CASE("A comparison of a light program that may go either way is followed both ways") {
-  const LightProgram edge{"edge.glsl", "vec3 light(Surface s, Light l, View v) {\n"
-                                       "  return distance(s.position, l.position) < 2.0 ? l.color : 0.25 * l.color; }",
-                          {}, {}};
+  const LightProgram edge{"edge.glsl",
+                          "vec3 light(Surface s, Light l, View v) {\n"
+                          "  return distance(s.position, l.position) < 2.0 ? l.color : 0.25 * l.color; }",
+                          {},
+                          {}};
   Scene scene;
   Light light;
   light.position = {0, 0, 0}, light.color = {1, 0.5f, 0.25f}, light.range = 8;

@@ -10,7 +10,8 @@
 namespace trueshade::testing {
 
 /// A driver that takes every liberty of GLSL's with a light program: sums in any order, products fused or not, either
-/// neighbour of a result, divisions, roots, exponentials and logarithms as far off as they may be, tiny numbers flushed.
+/// neighbour of a result, divisions, roots, exponentials and logarithms as far off as they may be, tiny numbers
+/// flushed.
 class LooseProgram {
  public:
   LooseProgram(const programs::Program& program, Pcg32& random) : program_(program), random_(random) {}
