@@ -180,12 +180,17 @@ std::string conclusion(const Validation& validation) {
   const uint64_t left_out = validation.capture.mask.count();
   const std::string post = std::string(validation.pipeline.post.active() ? "; the post chain is not judged" : "") +
                            (left_out > 0 ? "; " + std::to_string(left_out) + " are left out" : "");
+  uint64_t undefined = 0;
+  for (const StageVerdict& s : v.stages) undefined += s.count(oracle::PixelClass::undefined);
+  const std::string judged = undefined == 0 ? ""
+                                            : ", but for " + std::to_string(undefined) +
+                                                  " UNDEFINED, of which nothing can be said";
   if (violations > 0)
     return std::to_string(violations) + (violations == 1 ? " pixel is" : " pixels are") + " in no legal set" +
            stages_of_violations(v) + post;
   if (validation.repeat_changes.value_or(0) > 0)
     return "every pixel is explained, yet the same frame drawn again is another" + post;
-  if (!v.convicted()) return "every pixel is explained" + post;
+  if (!v.convicted()) return "every pixel is explained" + judged + post;
   const char* lenient = " (a remark, as --lenient asks)";
   const char* what = v.rounds_unlike_any() ? "rounding" : "texture filter or blend";
   return std::string("each pixel is legal, yet no ") + what + " that is known makes such an image" +
@@ -313,7 +318,7 @@ std::string validation_text(const Validation& v) {
                          : f.partial ? "may be part"
                                      : "looks like",
                          finding_line(f)) +
-             verdict_row("", proof_line(f)) + verdict_row("", "try: " + f.command);
+             verdict_row("", proof_line(f)) + (f.command.empty() ? "" : verdict_row("", "try: " + f.command));
   return lines;
 }
 

@@ -184,7 +184,8 @@ std::string diagnosis_part(const Validation& v) {
                         : f.partial ? "May be part of it: "
                                     : "") +
             escaped(finding_line(f)) + ".<br><span class=quiet>" + escaped(proof_line(f)) +
-            ".</span></p>\n<div class=command><code>" + escaped(f.command) + "</code></div>\n";
+            ".</span></p>\n" +
+            (f.command.empty() ? "" : "<div class=command><code>" + escaped(f.command) + "</code></div>\n");
   return html;
 }
 

@@ -46,6 +46,7 @@ class EditList {
 
   std::vector<ProgramEdit> all() {
     for (const auto& step : steps_) nodes_ = step, of_operation();
+    of_parameters();
     for (const auto& step : steps_) nodes_ = step, of_constants();
     for (const auto& step : steps_) nodes_ = step, of_value();
     for (const auto& step : steps_) nodes_ = step, of_factor();
@@ -99,6 +100,7 @@ class EditList {
       case Op::f_min:
       case Op::f_max:
         alone(0, "leaves out a bound (min, max or clamp)");
+        if (first().op == Op::f_max) other(Op::f_abs, "takes the size of a value where it should bound it from below");
         return other(first().op == Op::f_min ? Op::f_max : Op::f_min, "takes the wrong one of min and max");
       case Op::f_neg:
         return alone(0, "leaves out a minus");
@@ -146,6 +148,18 @@ class EditList {
       if (info(first().op).operand[k] != Type::f32) continue;
       add(ProgramChange::square_of_operand, "has the square of a value where it should have the value").operand = k;
       add(ProgramChange::root_of_operand, "has the root of a value where it should have the value").operand = k;
+    }
+  }
+
+  /// Parameters whose values are others than those that the picture was drawn with.
+  void of_parameters() {
+    for (NodeId id = 0; id < p_.nodes.size(); ++id) {
+      if (at(id).op != Op::input || at(id).type != Type::f32) continue;
+      const std::string& name = p_.inputs[at(id).bits].name;
+      if (!name.starts_with("parameters.")) continue;
+      nodes_ = {id};
+      ProgramEdit& edit = add(ProgramChange::scaled, name.substr(name.find('.') + 1));
+      edit.number = 1, edit.fitted = true, edit.is_parameter = true;
     }
   }
 

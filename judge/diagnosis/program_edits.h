@@ -28,8 +28,9 @@ struct ProgramEdit {
   std::vector<programs::NodeId> others;  ///< other_operand: for each node
   size_t operand = 0;
   programs::Op op = programs::Op::f_add;
-  double number = 0;    ///< what it is
-  bool fitted = false;  ///< the number is to be found: it is what it is rightly
+  double number = 0;          ///< what it is
+  bool fitted = false;        ///< the number is to be found: it is what it is rightly
+  bool is_parameter = false;  ///< of the block Parameters: `text` is its name
   uint32_t line = 0;
   std::string text;  ///< what the line does then, "subtracts where it should add"
 };

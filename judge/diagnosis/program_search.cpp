@@ -58,7 +58,8 @@ class ProgramSearch {
     const std::span<const Square> first(squares_.data(), 1);
     double best = 0;
     for (ProgramEdit& edit : program_edits(right_.program())) {
-      const bool is_last_resort = edit.change == ProgramChange::scaled || edit.change == ProgramChange::other_operand;
+      const bool is_last_resort =
+          (edit.change == ProgramChange::scaled && !edit.is_parameter) || edit.change == ProgramChange::other_operand;
       if ((is_last_resort && best > kExplanation) || tries_ > kMostTries) break;
       if (edit.fitted && !fit(edit)) continue;
       if (match_of(edited(right_.program(), edit), first).explained < kLeastExplained / 2) continue;
@@ -71,7 +72,8 @@ class ProgramSearch {
     std::vector<Finding> out;
     for (const auto& [match, edit] : found) {
       if (out.size() == most) break;
-      if (std::none_of(out.begin(), out.end(), [&](const Finding& f) { return f.text == text_of(edit); }))
+      const std::string text = text_of(edit);
+      if (std::none_of(out.begin(), out.end(), [&](const Finding& f) { return f.text == text; }))
         out.push_back(finding(match, edit));
     }
     for (size_t i = 1; i < out.size(); ++i)
@@ -245,6 +247,9 @@ class ProgramSearch {
   }
 
   std::string text_of(const ProgramEdit& edit) const {
+    if (edit.is_parameter)
+      return "the parameter `" + edit.text + "` was " + number_text(edit.number) +
+             " times the value that is given here";
     std::string text =
         "line " + std::to_string(edit.line) + " of " + right_.program().name + ", `" + source_line(edit.line) + "`, ";
     if (!edit.fitted) return text + edit.text;
@@ -258,8 +263,9 @@ class ProgramSearch {
 
   Finding finding(const Match& match, const ProgramEdit& edit) {
     Finding f;
-    f.name = "light-shader-line-" + std::to_string(edit.line);
-    f.plane = "picture", f.text = text_of(edit), f.fitted = edit.fitted;
+    f.name =
+        edit.is_parameter ? "light-shader-parameter-" + edit.text : "light-shader-line-" + std::to_string(edit.line);
+    f.plane = "picture", f.text = text_of(edit), f.fitted = edit.fitted && !edit.is_parameter;
     f.changed = lighting_.count(PixelClass::violation);
     f.explained = f.alone = match.explained, f.contradicted = match.contradicted;
     prove(edit, f.proof);

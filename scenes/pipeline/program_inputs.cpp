@@ -70,6 +70,15 @@ std::optional<float> parameter_value(std::string_view input, const LightProgram&
 }
 
 void check_values(const LightProgram& program, std::span<const std::string> inputs) {
+  for (const ProgramParameter& given : program.parameters) {
+    const auto is_same = [&](const ProgramParameter& p) { return p.name == given.name; };
+    if (std::count_if(program.parameters.begin(), program.parameters.end(), is_same) > 1)
+      throw Error(ErrorKind::usage, "--light-parameter", "'" + given.name + "' is given twice", "give it once");
+    const bool is_scalar = std::find(inputs.begin(), inputs.end(), "parameters." + given.name) != inputs.end();
+    if (is_scalar && given.value.size() > 1)
+      throw Error(ErrorKind::usage, "--light-parameter",
+                  "'" + given.name + "' is one number, not " + std::to_string(given.value.size()), "give one number");
+  }
   for (const ProgramParameter& given : program.parameters)
     if (std::none_of(inputs.begin(), inputs.end(), [&](const std::string& input) { return behind(given, input); }))
       throw Error(ErrorKind::usage, "--light-parameter", program.file + " reads no parameter '" + given.name + "'",

@@ -420,3 +420,59 @@ TEST_CASE("A comparison of a light program that may go either way is followed bo
   surface.position[0] = {1.19, 0};
   CHECK(bounds.at(surface, lights, registers).branches.empty());
 }
+
+TEST_CASE("A parameter that had another value is named, and what a picture's light had is found under a program too") {
+  const Scene scene = test_scene();
+  const LightProgram right = model("ggx_of_docs");
+  const auto names_of_findings = [&](const LightProgram& drawn, const Scene& lit) {
+    const Capture capture = captured(lit, pipeline_of(drawn, Format::rgba8));
+    const Pipeline pipeline = pipeline_of(right, Format::rgba8);
+    const Verdict verdict = judged(scene, pipeline, capture);
+    const std::vector<Finding> findings = diagnose(scene, pipeline, Profile{}, capture, verdict.stages);
+    std::string names;
+    for (const Finding& f : findings) names += f.name + ' ';
+    return names;
+  };
+  LightProgram brighter = right;
+  brighter.parameters[0].value[0] = 9;
+  // An exposure of the picture looks the same.
+  CHECK_THAT(names_of_findings(brighter, scene), Catch::Matchers::Contains("light-shader-parameter-gain"));
+  Scene fewer = scene;
+  fewer.lights[3].color = {0, 0, 0};
+  CHECK_THAT(names_of_findings(right, fewer), Catch::Matchers::StartsWith("light-missing=3"));
+}
+
+TEST_CASE("Where a light program may give NaN nothing is convicted, and nothing passes for right") {
+  const LightProgram lost{
+      "lost.glsl", "vec3 light(Surface s, Light l, View v) { return vec3(sqrt(-1.0 - s.albedo.r)); }", {}, {}};
+  const Scene scene = test_scene();
+  const Verdict verdict =
+      judged(scene, pipeline_of(lost, Format::rgba8), captured(scene, pipeline_of(model("ggx"), Format::rgba8)));
+  CHECK(verdict.violations() == 0);
+  CHECK(verdict.stages.at(1).count(PixelClass::undefined) > verdict.stages.at(1).covered / 2);
+}
+
+TEST_CASE("What finish() takes from the surface alone is of the surface that is judged") {
+  LightProgram program = model("ggx");
+  program.text += "vec4 finish(Surface s, View v, vec3 sum) { return vec4(sum, s.albedo.g); }\n";
+  const Scene scene = test_scene();
+  const Pipeline pipeline = pipeline_of(program, Format::rgba8);
+  const Verdict verdict = judged(scene, pipeline, captured(scene, pipeline));
+  CHECK(verdict.violations() == 0);
+}
+
+TEST_CASE("Unsigned integers of a light program are bounded as unsigned") {
+  const LightProgram hashed{
+      "hash.glsl",
+      "vec3 light(Surface s, Light l, View v) {\n"
+      "  uint h = s.pixel_x * 374761393u + s.pixel_y * 668265263u;\n"
+      "  return vec3(float(h) * 2.3283064e-10, h < 2147483648u ? 0.25 : 0.75, float(h >> 8u) * 5.9e-8);\n"
+      "}\n",
+      {},
+      {}};
+  const Scene scene = test_scene();
+  const Pipeline pipeline = pipeline_of(hashed, Format::rgba32f);
+  const Verdict verdict = judged(scene, pipeline, captured(scene, pipeline));
+  CHECK(verdict.violations() == 0);
+  CHECK(verdict.stages.at(1).count(PixelClass::undefined) == 0);
+}
