@@ -177,12 +177,12 @@ TEST_CASE("A parameter that is given twice, or with too many numbers, is refused
   std::vector<std::string> given{"render",    "builtin:cornell",   "--size",   "8x8", "--light-shader",
                                  "gain.glsl", "--light-parameter", "gain=1,2", "-o",  "g.png"};
   const Outcome wide = run(given);
-  CHECK(wide.code == 2);
+  CHECK(wide.exit_code == 2);
   CHECK(has(wide.err, "'gain' is one number, not 2"));
   given[7] = "gain=1";
   given.insert(given.end(), {"--light-parameter", "gain=2"});
   const Outcome twice = run(given);
-  CHECK(twice.code == 2);
+  CHECK(twice.exit_code == 2);
   CHECK(has(twice.err, "'gain' is given twice"));
 }
 
@@ -190,7 +190,7 @@ TEST_CASE("A verdict says of how many pixels nothing can be said") {
   write("lost.glsl", "vec3 light(Surface s, Light l, View v) { return vec3(sqrt(-1.0 - s.albedo.r)); }\n");
   const Outcome drawn = run({"render", "builtin:cornell", "--size", "16x12", "-o", "any.exr", "--aov",
                              "depth,position,normal,albedo,id.object"});
-  CHECK(drawn.code == 0);
+  CHECK(drawn.exit_code == 0);
   const Outcome judged = run({"validate", "builtin:cornell", "--size", "16x12", "--light-shader", "lost.glsl",
                               "--gbuffer", "any.exr", "--quick"});
   CHECK(has(judged.out, "UNDEFINED, of which nothing can be said"));
