@@ -384,7 +384,7 @@ Found found_slips(size_t step) {
 
 }  // namespace
 
-TEST_CASE("Slips in a light's GLSL are convicted, and their line is named first") {
+TEST_CASE("Slips in a light's GLSL are convicted, and their line is named first", "[slow]") {
   const Found found = found_slips(4);
   CHECK(found.convicted == found.planted);
   CHECK(found.named == found.planted);
