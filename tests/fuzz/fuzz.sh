@@ -30,18 +30,9 @@ fuzzed() {
 }
 
 # One on each core.
-status=0 running=0
-for target in "${targets[@]}"; do
-  if ((running == $(nproc))); then
-    wait -n || status=1
-    running=$((running - 1))
-  fi
-  fuzzed "$target" &
-  running=$((running + 1))
-done
-while ((running > 0)); do
-  wait -n || status=1
-  running=$((running - 1))
-done
+export -f fuzzed
+export seconds
+status=0
+printf '%s\n' "${targets[@]}" | xargs -P "$(nproc)" -I '{}' bash -c 'fuzzed "$1"' _ '{}' || status=1
 if ((status != 0)); then die "there are findings in build/fuzz/findings"; fi
 say "${#targets[@]} targets ran for $seconds s each, without a finding"

@@ -111,7 +111,7 @@ void check_bounds(const programs::Program& program) {
 void run_light_spv(Bytes bytes) {
   read([&] {
     std::vector<uint32_t> words((bytes.size() + 3) / 4);
-    std::memcpy(words.data(), bytes.data(), bytes.size());
+    if (!bytes.empty()) std::memcpy(words.data(), bytes.data(), bytes.size());
     check_bounds(programs::program_from_spirv("s.spv", std::move(words), kSmall));
   });
 }
