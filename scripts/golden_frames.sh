@@ -11,16 +11,14 @@ golden_frame() {
 # draw_golden_frames STEP COMMAND...: each STEP-th frame of tests/golden/frames.h, one on each core: what makes the largest scene
 # has one thread.
 draw_golden_frames() {
-  local began=$SECONDS frames i drawn=0 failed=0
+  local began=$SECONDS frames i drawn=0
   mapfile -t frames < <(sed -nE 's/.*\{"(builtin:[^"]*)", "([^"]*)", 200, 150, "([0-9a-f]{64})".*/\1 \2 \3/p' tests/golden/frames.h)
   ((${#frames[@]} > 0)) || die "tests/golden/frames.h names no frame of 200x150"
-  for ((i = 0; i < ${#frames[@]}; i += $1)); do
-    if ((drawn >= $(nproc))); then wait -n || failed=1; fi
-    # shellcheck disable=SC2086 # three words
-    golden_frame ${frames[i]} "${@:2}" &
-    drawn=$((drawn + 1))
-  done
-  for ((i = 0; i < drawn && i < $(nproc); ++i)); do wait -n || failed=1; done
-  ((failed == 0)) || die "a golden frame is not what it was (see above)"
+  export -f golden_frame die say
+  # xargs puts the three words of a frame behind the command's.
+  for ((i = 0; i < ${#frames[@]}; i += $1)); do echo "${frames[i]}"; done |
+    xargs -P "$(nproc)" -L 1 bash -c 'golden_frame "${@: -3}" "${@:1:$# - 3}"' _ "${@:2}" ||
+    die "a golden frame is not what it was (see above)"
+  drawn=$(((${#frames[@]} + $1 - 1) / $1))
   say "$drawn golden frames, drawn in $((SECONDS - began)) s, have the golden hashes"
 }
