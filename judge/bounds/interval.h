@@ -46,7 +46,7 @@ class IntervalArithmetic {
 
   /// Terms added in any order, two or more; `more`: what else the sum may be off before it is rounded.
   Interval sum(std::span<const Interval> terms, double more = 0) const;
-  /// The same product in another order of its factors: every rounding by as much as it may be.
+  /// A product of products, whose factors a driver may multiply in another order: its roundings are other ones then.
   Interval reordered(const Interval& product) const { return within(product, a_.roundoff); }
   Interval square(const Interval& x) const;
 

@@ -32,7 +32,7 @@ Interval constant_of(const ProgramNode& node) {
   return (node.bits & 0xFFF) == 0 || !std::isfinite(x) ? Interval::of(x) : Interval::rounded_once(x);
 }
 
-/// What lights add up to, as shading.cpp has it of its own terms.
+/// The sum of what lights add, and the bound of docs/gl_rules.md section 6 on the roundings of its additions.
 struct ProgramTotal {
   LitRange lit;
   std::array<double, 3> magnitude{};
