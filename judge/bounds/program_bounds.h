@@ -18,9 +18,9 @@ Pipeline with_planes_that_program_reads(const Pipeline& pipeline);
 
 /// A light program over the lights of a scene, ready for any surface. Borrows the scene, which must outlive it.
 ///
-/// A driver may add terms and multiply factors in any order, unless the source says `precise`. Where a comparison may go either way,
-/// each way is followed: up to kMostForks comparisons of one light, beyond that what holds both results of every
-/// choice.
+/// A driver may add terms and multiply factors in any order, unless the source says `precise`. Where a comparison may
+/// go either way, each way is followed: up to kMostForks comparisons of one light, beyond that what holds both results
+/// of every choice.
 class ProgramBounds {
  public:
   static constexpr size_t kMostForks = 4;
