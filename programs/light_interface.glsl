@@ -24,6 +24,8 @@ struct Light {
   vec3 ambient;
   float cone, penumbra;       // radians
   float cos_inner, cos_outer, cone_scale, cone_offset, spot_exponent;  // made in double, rounded once
+  float penumbra_slope;       // 1 / (cos_inner - cos_outer), as are
+  float cutoff_slope;         // 1 / (e - cos_outer), e = 0.9 cos_outer + 0.1: the lit edge of a "smooth_cutoff" cone
   vec3 right, up;             // half extents of area lights; a sphere's radius is right.x
   int shadow, cookie;         // numbers of textures, -1: none
   vec4 user[4];

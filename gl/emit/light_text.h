@@ -35,8 +35,9 @@ std::string program_fragment_text(const Pipeline& pipeline, const GlslOptions& o
 std::string_view own_text(std::string_view shader);
 
 /// RGBA32F texels of a light in `lights` under a light program: position, range; direction, type; colour, cone;
-/// attenuation, penumbra; ambient, spot exponent; cos_inner, cos_outer, cone_scale, cone_offset.
-inline constexpr int kProgramLightTexels = 6;
+/// attenuation, penumbra; ambient, spot exponent; cos_inner, cos_outer, cone_scale, cone_offset;
+/// penumbra_slope, cutoff_slope, 0, 0.
+inline constexpr int kProgramLightTexels = 7;
 
 /// Where Vulkan binds the block of parameters, in set 0.
 inline constexpr int kParameterBinding = 7;

@@ -14,7 +14,7 @@ constexpr std::string_view kUserText =
 constexpr const char* kUniforms = R"(uniform vec3 view_axis;
 uniform vec4 clip_from_world[4];  // rows
 uniform vec4 picture_place;       // x, y, width, height in the window
-uniform samplerBuffer lights;     // six texels a light
+uniform samplerBuffer lights;     // seven texels a light
 uniform int light_count;
 layout(location = 0) out vec4 target;
 
@@ -22,8 +22,9 @@ layout(location = 0) out vec4 target;
 
 constexpr const char* kLightOf = R"(
 Light ts_light_of(int i) {
-  vec4 t0 = texelFetch(lights, 6 * i), t1 = texelFetch(lights, 6 * i + 1), t2 = texelFetch(lights, 6 * i + 2);
-  vec4 t3 = texelFetch(lights, 6 * i + 3), t4 = texelFetch(lights, 6 * i + 4), t5 = texelFetch(lights, 6 * i + 5);
+  vec4 t0 = texelFetch(lights, 7 * i), t1 = texelFetch(lights, 7 * i + 1), t2 = texelFetch(lights, 7 * i + 2);
+  vec4 t3 = texelFetch(lights, 7 * i + 3), t4 = texelFetch(lights, 7 * i + 4), t5 = texelFetch(lights, 7 * i + 5);
+  vec4 t6 = texelFetch(lights, 7 * i + 6);
   Light l;
   l.type = uint(t1.w);
   l.index = uint(i);
@@ -40,6 +41,8 @@ Light ts_light_of(int i) {
   l.cone_scale = t5.z;
   l.cone_offset = t5.w;
   l.spot_exponent = t4.w;
+  l.penumbra_slope = t6.x;
+  l.cutoff_slope = t6.y;
   l.right = l.up = vec3(0.0);
   l.shadow = l.cookie = -1;
   for (int k = 0; k < 4; ++k) l.user[k] = vec4(0.0);
@@ -59,7 +62,7 @@ View ts_view() {
   return v;
 }
 )";
-static_assert(kProgramLightTexels == 6);
+static_assert(kProgramLightTexels == 7);
 
 /// Functions behind the user's text, declared: those of them that main calls.
 std::string declared_text(const programs::LightOutline& has) {

@@ -209,6 +209,7 @@ std::vector<float> program_light_records(const Scene& scene) {
     add(light.attenuation, light.penumbra_rad);
     add(light.ambient, light.spot_exponent);
     add({cone.cos_inner, cone.cos_outer, cone.scale}, cone.offset);
+    add({cone.penumbra_slope, cone.cutoff_slope, 0.0f}, 0.0f);
   }
   if (out.empty()) out.resize(4 * size_t(kProgramLightTexels));
   return out;

@@ -47,6 +47,10 @@ constexpr Row<SurfaceField> kSurface[] = {{"position", [](S s, size_t c) { retur
 
 double outer_cosine(const Light& l) { return std::cos(double(l.cone_rad) + double(l.penumbra_rad)); }
 double cone_width(const Light& l) { return 1 / std::max(0.001, std::cos(double(l.cone_rad)) - outer_cosine(l)); }
+/// Of a smooth cone that is lit whole from this cosine on. The edges are floats before they are subtracted.
+Interval slope(const Light& l, double lit) {
+  return Interval::rounded_once(1 / (double(float(lit)) - double(float(outer_cosine(l)))));
+}
 Interval nothing(const Light&, uint32_t, size_t) { return Interval::of(0); }
 Interval no_texture(const Light&, uint32_t, size_t) { return Interval::of(-1); }
 
@@ -68,6 +72,8 @@ constexpr Row<LightField> kLight[] = {
     {"cone_scale", [](L l, uint32_t, size_t) { return Interval::rounded_once(cone_width(l)); }},
     {"cone_offset", [](L l, uint32_t, size_t) { return Interval::rounded_once(-outer_cosine(l) * cone_width(l)); }},
     {"spot_exponent", [](L l, uint32_t, size_t) { return Interval::of(double(l.spot_exponent)); }},
+    {"penumbra_slope", [](L l, uint32_t, size_t) { return slope(l, std::cos(double(l.cone_rad))); }},
+    {"cutoff_slope", [](L l, uint32_t, size_t) { return slope(l, outer_cosine(l) * 0.9 + 0.1); }},
     {"right", nothing},
     {"up", nothing},
     {"shadow", no_texture},

@@ -45,6 +45,8 @@ constexpr Field kFields[] = {
     {"light.cone_scale"},
     {"light.cone_offset"},
     {"light.spot_exponent"},
+    {"light.penumbra_slope"},
+    {"light.cutoff_slope"},
     {"light.right", Type::f32, 3},
     {"light.up", Type::f32, 3},
     {"light.shadow", Type::i32},

@@ -82,6 +82,8 @@ uint32_t of_light(std::string_view name, const Light& light, uint32_t index) {
   if (name == "light.cone_scale") return bits_of(LightCone(light).scale);
   if (name == "light.cone_offset") return bits_of(LightCone(light).offset);
   if (name == "light.spot_exponent") return bits_of(light.spot_exponent);
+  if (name == "light.penumbra_slope") return bits_of(LightCone(light).penumbra_slope);
+  if (name == "light.cutoff_slope") return bits_of(LightCone(light).cutoff_slope);
   if (name == "light.shadow" || name == "light.cookie") return uint32_t(-1);
   return 0;  // right, up: a light without an area
 }

@@ -199,6 +199,7 @@ const char* const kFields[] = {
     "vec3(l.cone, l.penumbra, 1.0)",
     "vec3(l.cos_inner, l.cos_outer, l.spot_exponent + 1.0)",
     "vec3(l.cone_scale, l.cone_offset, 1.0)",
+    "vec3(l.penumbra_slope, l.cutoff_slope, 1.0)",
     "l.right + l.up + vec3(float(l.shadow), float(l.cookie), 1.0)",
     "v.eye",
     "v.axis",

@@ -11,35 +11,11 @@
 #include "shading/light/fast/compiled_models.h"
 #include "tests/catch.hpp"
 #include "tests/shading/light_sheet.h"
+#include "tests/shading/random_light_model.h"
 
 using namespace trueshade;
 
 namespace {
-
-const float kShininess[] = {0, 1, 2, 5, 32, 60, 7.5f, 0.25f, 8192, 8191};
-
-LightModel random_model(Random& random) {
-  LightModel m;
-  m.renormalize = random() % 2 == 0;
-  m.specular_masked = random() % 2 == 0;
-  m.shininess = kShininess[random() % std::size(kShininess)];
-  m.specular_color = {between(random, 0, 1), between(random, 0, 1), between(random, 0, 1)};
-  m.falloff = Falloff(random() % 6);
-  m.order = TermOrder(random() % 4);
-  m.cone = Cone(random() % 5);
-  m.diffuse = Diffuse(random() % 4 == 0);
-  m.specular = Specular(random() % 3);
-  m.specular_source = SpecularSource(random() % 4);
-  m.viewer = Viewer(random() % 2);
-  m.emission = random() % 2 == 0;
-  if (random() % 2 == 0) m.global_ambient = {0.2f, 0.1f, 0.0f};
-  if (random() % 3 == 0) m.damping = 0.3f;
-  m.clamp_result = random() % 3 == 0;
-  m.alpha_from_albedo = random() % 2 == 0;
-  if (m.order == TermOrder::albedo_last) m.emission = false;
-  if (m.order == TermOrder::albedo_last && m.specular_source != SpecularSource::albedo) m.specular = Specular::none;
-  return m;
-}
 
 /// Sheets through each other, of four materials: vectors of pixels see several.
 Scene mixed_sheets(Random& random) {
@@ -164,7 +140,7 @@ TEST_CASE("every term, falloff, cone and order of a light model has the naive lo
     Scene scene = mixed_sheets(random);
     for (int light = 0; light < 24; ++light) scene.lights.push_back(random_light(random));
     Pipeline pipeline = loop_pipeline("many-lights");
-    pipeline.light_model = random_model(random);
+    pipeline.light_model = random_light_model(random);
     const Execution execution = on(targets[size_t(i) % targets.size()], i % 3 == 0, i % 5 != 0);
     INFO("model " << i << ", " << execution.simd << ", " << pipeline_json(pipeline));
     compare_with_loop(scene, pipeline, render(scene, pipeline, execution));
@@ -249,7 +225,7 @@ TEST_CASE("the light sums of all models are the real numbers' to within the boun
     Scene scene = mixed_sheets(random);
     for (int light = 0; light < 30; ++light) scene.lights.push_back(random_light(random));
     Pipeline pipeline = loop_pipeline("many-lights");
-    LightModel& m = pipeline.light_model = random_model(random);
+    LightModel& m = pipeline.light_model = random_light_model(random);
     m.renormalize = true;  // otherwise N.H is not bounded by 1
     m.viewer = Viewer::local;
     if (m.shininess > 60) m.shininess = 60;

@@ -35,6 +35,7 @@ struct Light {
   vec3 attenuation;
   vec3 ambient;
   float cone, penumbra, cos_inner, cos_outer, cone_scale, cone_offset, spot_exponent;
+  float penumbra_slope, cutoff_slope;
   vec3 right, up;
   int shadow, cookie;
   vec4 user[4];

@@ -39,6 +39,7 @@ const std::vector<ProgramInput> kInputs = [] {
        {"attenuation", 'f', 3, "share"}, {"ambient", 'f', 3, "share"},        {"cone", 'f', 1, "share"},
        {"penumbra", 'f', 1, "share"},    {"cos_inner", 'f', 1, "share"},      {"cos_outer", 'f', 1, "share"},
        {"cone_scale", 'f', 1, "length"}, {"cone_offset", 'f', 1, "position"}, {"spot_exponent", 'f', 1, "exponent"},
+       {"penumbra_slope", 'f', 1, "length"}, {"cutoff_slope", 'f', 1, "length"},
        {"right", 'f', 3, "position"},    {"up", 'f', 3, "position"},          {"shadow", 'i', 1, "index"},
        {"cookie", 'i', 1, "index"},      {"user", 'f', 16, "position", 4}});
   add("TsView.ts_view.", {{"eye", 'f', 3, "position"},
