@@ -67,8 +67,7 @@ class SceneJudge {
     asked.surfaces = !shaded;
     v_.verdict = oracle::validate_capture(scene_, v_.pipeline, capture, asked);
     v_.is_diagnosed = v_.verdict.violations() > 0 || v_.verdict.convicted();
-    if (v_.is_diagnosed)
-      v_.findings = oracle::diagnose(scene_, v_.pipeline, v_.profile, capture, v_.verdict.stages, {});
+    if (v_.is_diagnosed) find_explanation(scene_, v_);
     for (oracle::Finding& finding : v_.findings)
       finding.command = "trueshade validate " + for_shell(scene_.spec) + " --gbuffer PLANES.exr --image " +
                         for_shell(pictures_.test.path) + mask_words() + " --suppose " + finding.name;

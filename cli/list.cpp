@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "programs/front/light_outline.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/light_models/light_models.h"
+#include "scenes/light_models/stated_model.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
 
@@ -106,10 +108,21 @@ std::string glsl_type(programs::Type type, size_t components) {
   return components == 1 ? kScalar[size_t(type)] : kVector[size_t(type)] + std::to_string(components);
 }
 
+/// The program of a preset's light model, of a model that ships, or of a file.
+void find_program(const std::string& name, ProgramFacts& facts) {
+  const auto preset = std::find_if(presets().begin(), presets().end(), [&](const Preset& p) { return p.name == name; });
+  if (preset == presets().end()) {
+    facts.program = light_program_of(name);
+    if (names_shipped_model(name)) facts.about = shipped_model(name).about;
+    return;
+  }
+  facts.program = program_of(preset->pipeline.light_model, name);
+  facts.about = preset->source;
+}
+
 ProgramFacts facts_of(const std::string& name) {
   ProgramFacts facts;
-  facts.program = light_program_of(name);
-  if (names_shipped_model(name)) facts.about = shipped_model(name).about;
+  find_program(name, facts);
   const programs::LightOutline outline = programs::light_outline(facts.program.file, facts.program.text, "");
   const std::string_view block = "parameters.";
   for (size_t i = 0, next = 0; i < outline.parameters.size(); i = next) {
@@ -133,6 +146,7 @@ std::string json_of(const ProgramFacts& facts) {
   json.put("name", facts.program.file);
   if (!facts.about.empty()) json.put("description", facts.about);
   json.put("sha256", facts.program.sha256);
+  if (!is_spirv(facts.program.text)) json.put("text", facts.program.text);
   JsonArray parameters, reads, defines;
   for (const auto& [name, type] : facts.parameters)
     parameters.add_raw(JsonObject().put("name", name).put("type", type).text());
@@ -150,7 +164,8 @@ std::string text_of(const ProgramFacts& facts) {
   Section reads{"", "Reads", {}}, defines{"", "Defines", {}};
   for (const std::string& field : facts.fields) reads.entries.emplace_back(field, "");
   for (const std::string& function : facts.functions) defines.entries.emplace_back(function, "");
-  return text_of(std::vector{what, parameters, reads, defines});
+  const std::string& text = facts.program.text;
+  return text_of(std::vector{what, parameters, reads, defines}) + (is_spirv(text) ? "" : "Text\n" + text);
 }
 
 }  // namespace

@@ -183,8 +183,7 @@ bool judge_opengl(const ValidationOptions& options) {
   });
   activity->now("finding what explains it");
   v.is_diagnosed = v.verdict.violations() > 0 || v.verdict.convicted() || !options.supposed.empty();
-  if (v.is_diagnosed)
-    v.findings = oracle::diagnose(scene, v.pipeline, v.profile, v.capture, v.verdict.stages, options.supposed);
+  if (v.is_diagnosed) find_explanation(scene, v, options.supposed);
   for (size_t i = 0; i < v.findings.size(); ++i) {
     if (v.findings[i].name.starts_with("light-shader-")) continue;  // an edit of the text: nothing to suppose
     v.findings[i].command = "trueshade" + options.command_line;

@@ -1,12 +1,14 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "cli/driver_capture.h"
 #include "cli/notes.h"
 #include "judge/diagnosis/finding.h"
+#include "judge/diagnosis/light_quotient.h"
 #include "judge/stages/validate.h"
 #include "oracle/capture.h"
 #include "scenes/pipeline/pipeline.h"
@@ -24,6 +26,7 @@ struct Validation {
   bool lenient = false;                   ///< what the tests of the whole image find is no failure
   bool is_diagnosed = false;              ///< faults were tried
   std::vector<oracle::Finding> findings;  ///< what explains a capture that does not pass, or what was supposed
+  std::optional<oracle::LightQuotient> quotient;  ///< of light that no fault explains
   std::vector<DriverFrame::Pass> passes;  ///< empty for a capture from files
   int timed_frames = 0;                   ///< whose median the passes are
   std::optional<uint64_t> repeat_changes, move_changes;  ///< of DriverFrame; nothing where not drawn
@@ -38,6 +41,9 @@ struct Validation {
 /// Whether every pixel is in its legal set, the driver drew the same again and, unless that is lenient, the image is
 /// one that a known rounding makes.
 bool passes(const Validation& validation);
+
+/// Looks for what explains a capture that does not pass, or tries the faults that are supposed.
+void find_explanation(const Scene& scene, Validation& v, std::span<const std::string> supposed = {});
 
 /// Pixels that some stage finds in no legal set.
 uint64_t violating_pixels(const oracle::Verdict& verdict);

@@ -280,6 +280,27 @@ std::string lights_of(const Pipeline& pipeline) {
   return pipeline.light_program.used() ? "light program " + pipeline.light_program.file : "preset " + pipeline.preset;
 }
 
+namespace {
+
+bool is_explained(const Validation& v) { return !v.findings.empty() && !v.findings[0].partial; }
+
+/// What is said of light that no fault explains: the description, and eight steps of its curve.
+std::string quotient_text(const oracle::LightQuotient& q) {
+  std::string lines =
+      verdict_row("its light", q.text + "; that leaves " + real(100 * q.left, "%.2g") + " % of the difference");
+  if (q.against == "light") return lines;
+  constexpr size_t kMost = 8;
+  std::string curve;
+  const size_t steps = std::min(kMost, q.curve.size());
+  for (size_t i = 0; i < steps; ++i) {
+    const auto& step = q.curve[steps > 1 ? i * (q.curve.size() - 1) / (steps - 1) : 0];
+    curve += (i > 0 ? ", " : "") + real((step.from + step.to) / 2, "%.2g") + ": " + real(step.factor, "%.3g");
+  }
+  return lines + verdict_row("", "times what it should be, by " + q.against + ": " + curve);
+}
+
+}  // namespace
+
 std::string validation_text(const Validation& v) {
   std::string lines = verdict_row("scene", v.verdict.scene);
   lines +=
@@ -310,8 +331,8 @@ std::string validation_text(const Validation& v) {
   add_row("evidence", v.verdict.evidence_line());
   if (v.verdict.inferred) lines += verdict_row("tightest", tightest_line(*v.verdict.inferred));
   lines += verdict_row("verdict", conclusion(v));
-  const bool explained = !v.findings.empty() && !v.findings[0].partial;
-  if (v.is_diagnosed && !explained) lines += verdict_row("looks like", "no fault that is known");
+  if (v.is_diagnosed && !is_explained(v)) lines += verdict_row("looks like", "no fault that is known");
+  if (v.quotient) lines += quotient_text(*v.quotient);
   for (const oracle::Finding& f : v.findings)
     lines += verdict_row(f.together  ? "and"
                          : f.tied    ? "or as well"
@@ -346,7 +367,15 @@ std::string validation_json(const Validation& v) {
       .put("judge_ms", v.judge_ms)
       .put_raw("verdict", oracle::verdict_json(v.verdict))
       .put_raw("diagnosis", oracle::findings_json(v.findings));
+  if (v.quotient) json.put_raw("quotient", oracle::quotient_json(*v.quotient));
   return json.text() + '\n';
+}
+
+void find_explanation(const Scene& scene, Validation& v, std::span<const std::string> supposed) {
+  v.findings = oracle::diagnose(scene, v.pipeline, v.profile, v.capture, v.verdict.stages, supposed);
+  if (is_explained(v) || !supposed.empty()) return;
+  for (const oracle::StageVerdict& stage : v.verdict.stages)
+    if (stage.stage == "lighting") v.quotient = oracle::light_quotient(scene, v.pipeline, v.profile, v.capture, stage);
 }
 
 }  // namespace trueshade

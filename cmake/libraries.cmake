@@ -38,6 +38,7 @@ function(trueshade_library name)
     PUBLIC trueshade_flags ${arg_LINKS}
     PRIVATE $<BUILD_INTERFACE:trueshade_private_flags> ${arg_PRIVATE_LINKS})
   target_include_directories(trueshade_${name} PRIVATE ${PROJECT_BINARY_DIR}/generated)
+  target_compile_options(trueshade_${name} PRIVATE ${trueshade_scalar_options})
   if(kernels)
     trueshade_kernels(${name} "${kernels}" "${arg_LINKS}")
   endif()

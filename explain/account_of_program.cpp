@@ -15,7 +15,7 @@ constexpr size_t kMostSteps = 60;
 /// A line of the program's text without its indent; empty for SPIR-V, and where there is none of that number.
 std::string source_line(const LightProgram& program, uint32_t line) {
   std::string_view rest = program.text;
-  if (rest.starts_with(std::string_view("\x03\x02\x23\x07", 4))) return {};
+  if (is_spirv(rest)) return {};
   for (uint32_t i = 1; i < line && !rest.empty(); ++i)
     rest.remove_prefix(std::min(rest.size(), std::min(rest.find('\n'), rest.size() - 1) + 1));
   std::string_view text = rest.substr(0, rest.find_first_of("\r\n"));
@@ -103,7 +103,7 @@ void add_lines(const ExplainedFrame& frame, const ProgramAtSurface& at, const No
     }
     if (line == nullptr || step.line != number) {
       number = step.line;
-      const std::string text = source_line(frame.pipeline.light_program, number);
+      const std::string text = source_line(frame.light_program, number);
       line = &lines.part("line", number == 0 ? "of lines that the file does not tell"
                                              : "line " + std::to_string(number) + (text.empty() ? "" : ": " + text));
     }
@@ -122,18 +122,20 @@ void add_lines(const ExplainedFrame& frame, const ProgramAtSurface& at, const No
 void add_program(const ExplainedFrame& frame, const LightTotal& total, Detail detail, Account& to) {
   const ProgramAtSurface& at = *total.program;
   to.add("program", at.program().name, "SHA-256 of its SPIR-V: " + at.program().sha256);
-  to.add("start", total.pixel.start, "what the sum starts from: R, G, B");
+  to.add("start", total.start, "what the sum starts from: R, G, B");
   if (at.program().defines_start) add_lines(frame, at, at.at_sum({}), "start", programs::kStartOutput, 3, detail, to);
 }
 
 void add_program_light(const ExplainedFrame& frame, const LightTotal& total, size_t light, ProgramLines lines,
                        Detail detail, Account& to) {
   const LightAtPixel& at = total.lights[light];
-  const LightType type = total.table->row[light].type;
-  if (type == LightType::point || type == LightType::spot) to.add("d", at.d, "distance, scene units");
+  const LightRow& row = total.table->row[light];
+  const bool placed = row.type == LightType::point || row.type == LightType::spot;
+  to.add("color", row.color, "colour times intensity");
+  if (placed && std::isfinite(row.range)) to.add("range", row.range, "scene units");
+  if (placed) to.add("d", at.d, "distance, scene units");
   if (at.fate == LightFate::out_of_reach) {
-    to.add("end", std::sqrt(total.table->row[light].cut2),
-           "distance from which the pipeline lets this light add nothing");
+    to.add("end", std::sqrt(row.cut2), "distance from which this light adds nothing");
     return;
   }
   to.add("term", at.term, "what light() gives: R, G, B");
@@ -150,7 +152,7 @@ void add_program_light(const ExplainedFrame& frame, const LightTotal& total, siz
 
 void add_program_sum(const ExplainedFrame& frame, const LightTotal& total, Detail detail, Account& to) {
   const ProgramAtSurface& at = *total.program;
-  std::array<float, 3> sum = total.pixel.start;
+  std::array<float, 3> sum = total.start;
   for (const LightAtPixel& light : total.lights)
     for (size_t k = 0; k < 3 && light.fate == LightFate::adds; ++k) sum[k] = sum[k] + light.term[k];
   if (!at.program().defines_finish) return;

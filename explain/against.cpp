@@ -124,7 +124,7 @@ class Search {
     if (!surfaces_.covered) return;
     try_model("light extents not applied",
               [](Pipeline& p) { p.light_volumes.point = p.light_volumes.spot = LightExtent::unbounded; });
-    if (frame_.program) return;
+    if (frame_.pipeline.light_program.used()) return;
     const LightModel& model = frame_.pipeline.light_model;
     try_model(model.renormalize ? "the normal used as it is stored" : "the normal made unit",
               [](Pipeline& p) { p.light_model.renormalize = !p.light_model.renormalize; });
@@ -154,7 +154,7 @@ class Search {
     for (size_t i = 0; i < std::size(kStrategyNames); ++i) {
       Pipeline changed = frame_.pipeline;
       changed.strategy = Strategy(i);
-      if (frame_.program && blends_lights(changed.strategy)) continue;
+      if (frame_.pipeline.light_program.used() && blends_lights(changed.strategy)) continue;
       try_pipeline("the strategy " + std::string(kStrategyNames[i]), changed);
     }
     for (const Preset& preset : presets()) try_pipeline("the preset " + std::string(preset.name), preset.pipeline);

@@ -2,6 +2,7 @@
 
 #include "core/fp_env.h"
 #include "raster/light_geometry/light_outlines.h"
+#include "scenes/light_models/stated_model.h"
 #include "scenes/pipeline/program_inputs.h"
 #include "scenes/pipeline/transparency.h"
 
@@ -20,21 +21,38 @@ LightTable bounded_table(const Scene& scene, const Pipeline& pipeline, bool draw
   return table;
 }
 
+/// The pipeline's own program, or that of its model; a surface of glass has the albedo's alpha.
+LightProgram light_program_of(const Pipeline& pipeline, bool of_glass) {
+  if (pipeline.light_program.used()) return pipeline.light_program;
+  LightModel model = pipeline.light_model;
+  model.alpha_from_albedo = model.alpha_from_albedo || of_glass;
+  return program_of(model, pipeline.preset);
+}
+
+FrameLights frame_lights(const Scene& scene, Pipeline pipeline, bool draws_meshes, bool of_glass) {
+  const bool is_stated = !pipeline.light_program.used();
+  FrameLights out{bounded_table(scene, pipeline, draws_meshes), nullptr,
+                  pipeline.light_model.alpha_from_albedo || of_glass};
+  pipeline.light_program = light_program_of(pipeline, of_glass);
+  out.program = std::make_shared<ProgramFrame>(scene, pipeline, is_stated ? Unlit::by_planes : Unlit::shows_albedo);
+  return out;
+}
+
 }  // namespace
 
 ExplainedFrame::ExplainedFrame(const Scene& of_scene, const Pipeline& of_pipeline)
     : scene(of_scene),
       pipeline(of_target(of_pipeline)),
       view(make_view(scene, pipeline)),
-      lights(bounded_table(scene, pipeline, pipeline.strategy == Strategy::deferred_volumes)),
-      glass_lights(bounded_table(scene, pipeline, false)),
+      light_program(light_program_of(pipeline, false)),
+      lights(frame_lights(scene, pipeline, pipeline.strategy == Strategy::deferred_volumes, false)),
+      glass_lights(frame_lights(scene, pipeline, false, true)),
       meshes(pipeline.light_volumes),
       volume_state(light_geometry_state(pipeline)),
       volume_window(window_transform(volume_state, pipeline.width, pipeline.height, pipeline.profile)),
       target{pipeline.target, pipeline.profile, pipeline.gbuffer.half_round},
       transparency(draws_transparent(scene, pipeline) ? pipeline.transparency.mode : TransparencyMode::none) {
   require_summed_lights(pipeline);
-  if (pipeline.light_program.used()) program = std::make_shared<ProgramFrame>(scene, pipeline);
 }
 
 }  // namespace trueshade

@@ -1,7 +1,6 @@
 #include "explain/target.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "shading/blend/clear_color.h"
@@ -38,67 +37,49 @@ struct Drawing {
 /// A NaN is one pattern, whatever it came from.
 float one_nan(float x) { return x == x ? x : std::numeric_limits<float>::quiet_NaN(); }
 
-/// What the target receives of a sum.
-std::array<float, 4> received(const LightModel& model, const LightTotal& total, const std::array<float, 3>& sum) {
-  if (!total.program) return received(model, total.pixel, sum);
-  if (total.program->is_unlit()) return total.pixel.albedo;
+/// What the target receives of a sum, or of one light's term that is drawn by itself.
+std::array<float, 4> received(const LightTotal& total, const std::array<float, 3>& sum) {
+  if (total.program->is_unlit()) return total.surface.albedo;
   auto out = total.program->output<4>(total.program->at_sum(sum), programs::kFinishOutput);
-  if (total.takes_albedo_alpha) out[3] = total.pixel.albedo[3];
+  if (total.takes_albedo_alpha) out[3] = total.surface.albedo[3];
   for (float& value : out) value = one_nan(value);
   return out;
 }
 
-/// What a program makes of a light. A light with a place ends where its extent does.
-LightAtPixel light_by_program(const LightTotal& total, const LightRow& light, size_t index) {
+/// A light with a place ends where its extent, or its falloff, does.
+LightAtPixel light_at(const ExplainedFrame& frame, const LightTotal& total, size_t index) {
   LightAtPixel at;
-  const bool has_place = light.type == LightType::point || light.type == LightType::spot;
-  for (size_t k = 0; k < 3 && has_place; ++k) at.D[k] = light.position[k] - total.pixel.position[k];
-  at.d2 = (at.D[0] * at.D[0] + at.D[1] * at.D[1]) + at.D[2] * at.D[2];
-  at.d = std::sqrt(at.d2);
-  if (has_place && !(at.d2 < light.cut2)) return at.fate = LightFate::out_of_reach, at;
+  if (!in_reach(total.table->row[index], total.surface, at)) return at.fate = LightFate::out_of_reach, at;
   at.term = total.program->output<3>(total.program->at_light(index), programs::kLightOutput);
   for (float& value : at.term) value = one_nan(value);
-  if (at.term == std::array<float, 3>{}) at.fate = LightFate::gives_nothing;
+  if (at.term == std::array<float, 3>{}) at.fate = fate_without_light(frame.scene.lights[index], total.surface);
   return at;
 }
 
-LightTotal lit_by_program(const ExplainedFrame& frame, const LightModel& model, const LightTable& table,
-                          const SurfacePlanes& surface, WindowPixel pixel) {
-  LightTotal out;
-  out.table = &table;
-  out.program = std::make_shared<ProgramAtSurface>(frame.program, surface, pixel);
-  out.takes_albedo_alpha = model.alpha_from_albedo && !out.program->program().defines_finish;
-  out.pixel.position = surface.position, out.pixel.normal = surface.normal, out.pixel.albedo = surface.albedo;
-  out.pixel.start = out.program->start();
-  if (!out.program->is_unlit())
-    for (size_t i = 0; i < table.size(); ++i) out.lights.push_back(light_by_program(out, table.row[i], i));
-  return out;
-}
-
 /// The sum of the lights, each as often as it counts.
-std::array<float, 4> summed(const LightModel& model, const LightTotal& total, LightTimes times) {
-  std::array<float, 3> sum = total.pixel.start;
+std::array<float, 4> summed(const LightTotal& total, LightTimes times) {
+  std::array<float, 3> sum = total.start;
   for (size_t i = 0; i < total.lights.size(); ++i)
     for (int n = total.lights[i].fate == LightFate::adds ? times[i] : 0; n > 0; --n)
       for (size_t k = 0; k < 3; ++k) sum[k] = sum[k] + total.lights[i].term[k];
-  return received(model, total, sum);
+  return received(total, sum);
 }
 
-LightTotal lit(const ExplainedFrame& frame, const LightModel& model, const LightTable& table,
-               const SurfacePlanes& surface, WindowPixel pixel) {
+LightTotal lit(const ExplainedFrame& frame, const FrameLights& lights, const SurfacePlanes& surface,
+               WindowPixel pixel) {
   LightTotal out;
-  if (frame.program) {
-    out = lit_by_program(frame, model, table, surface, pixel);
-  } else {
-    out.pixel = lit_pixel(model, table, surface), out.table = &table;
-    for (const LightRow& row : table.row) out.lights.push_back(light_at(model, row, out.pixel));
-  }
-  out.sum = summed(model, out, {});
+  out.surface = surface, out.table = &lights.table;
+  out.program = std::make_shared<ProgramAtSurface>(lights.program, surface, pixel);
+  out.takes_albedo_alpha = lights.takes_albedo_alpha && !out.program->program().defines_finish;
+  out.start = out.program->start();
+  if (!out.program->is_unlit())
+    for (size_t i = 0; i < lights.table.size(); ++i) out.lights.push_back(light_at(frame, out, i));
+  out.sum = summed(out, {});
   return out;
 }
 
-std::array<float, 4> sum_of(const LightModel& model, const LightTotal& total, LightTimes times) {
-  return times.times.empty() ? total.sum : summed(model, total, times);
+std::array<float, 4> sum_of(const LightTotal& total, LightTimes times) {
+  return times.times.empty() ? total.sum : summed(total, times);
 }
 
 uint32_t mesh_covers(const ExplainedFrame& frame, const Light& light, const LightMesh& mesh, WindowPixel pixel) {
@@ -119,33 +100,32 @@ uint32_t mesh_covers(const ExplainedFrame& frame, const Light& light, const Ligh
 }
 
 /// What a light's draw hands to the blender: its term alone.
-std::array<float, 4> source_of(const LightModel& model, const LitPixel& pixel, const LightAtPixel& at) {
-  return received(model, pixel, at.fate == LightFate::adds ? at.term : std::array<float, 3>{});
+std::array<float, 4> source_of(const LightTotal& total, size_t light) {
+  const LightAtPixel& at = total.lights[light];
+  return received(total, at.fate == LightFate::adds ? at.term : std::array<float, 3>{});
 }
 
 void draw_volumes(const ExplainedFrame& frame, const LitSurfaces& lit, LightTimes times, Drawing& drawing) {
-  const LightModel& model = frame.pipeline.light_model;
   if (!lit.covered) return;
-  const LitPixel& surface = lit.visible.pixel;
+  const LightTotal& visible = lit.visible;
   if (frame.pipeline.light_volumes.base)
-    drawing.store("what the surface has without lights", received(model, surface, surface.start));
-  for (size_t i = 0; i < lit.visible.lights.size(); ++i) {
-    if (!inside_extent(frame.lights.row[i], surface)) continue;
+    drawing.store("what the surface has without lights", received(visible, visible.start));
+  for (size_t i = 0; i < visible.lights.size(); ++i) {
+    if (!inside_extent(frame.lights.table.row[i], visible.surface)) continue;
     for (uint32_t k = 0; k < lit.geometry[i] * uint32_t(times[i]); ++k)
-      drawing.draw("", int64_t(i), frame.pipeline.blend, source_of(model, surface, lit.visible.lights[i]));
+      drawing.draw("", int64_t(i), frame.pipeline.blend, source_of(visible, i));
   }
 }
 
 void draw_passes(const ExplainedFrame& frame, const LitSurfaces& lit, LightTimes times, Drawing& drawing) {
-  const LightModel& model = frame.pipeline.light_model;
-  const size_t lights = frame.lights.size();
+  const size_t lights = frame.lights.table.size();
   if (lit.covered) {
     const LightTotal& visible = lit.visible;
-    std::array<float, 3> first = visible.pixel.start;
+    std::array<float, 3> first = visible.start;
     for (int n = lights > 0 && visible.lights[0].fate == LightFate::adds ? times[0] : 0; n > 0; --n)
       for (size_t k = 0; k < 3; ++k) first[k] = first[k] + visible.lights[0].term[k];
     drawing.store(lights > 0 ? "the first draw, with light 0" : "a draw without lights",
-                  received(model, visible.pixel, first));
+                  received(visible, first));
   }
   std::vector<const LightTotal*> layers;
   if (lit.tied.empty() && lit.covered) layers.push_back(&lit.visible);
@@ -154,15 +134,9 @@ void draw_passes(const ExplainedFrame& frame, const LitSurfaces& lit, LightTimes
     for (size_t layer = 0; layer < layers.size(); ++layer) {
       const LightTotal& of = *layers[layer];
       const std::string where = lit.tied.empty() ? "" : "surface " + std::to_string(layer) + " at this depth, ";
-      for (int n = inside_extent(frame.lights.row[i], of.pixel) ? times[i] : 0; n > 0; --n)
-        drawing.draw(where, int64_t(i), kAddLight, source_of(model, of.pixel, of.lights[i]));
+      for (int n = inside_extent(frame.lights.table.row[i], of.surface) ? times[i] : 0; n > 0; --n)
+        drawing.draw(where, int64_t(i), kAddLight, source_of(of, i));
     }
-}
-
-LightModel model_of_glass(const ExplainedFrame& frame) {
-  LightModel model = frame.pipeline.light_model;
-  model.alpha_from_albedo = true;
-  return model;
 }
 
 }  // namespace
@@ -178,18 +152,17 @@ std::vector<uint32_t> geometry_at(const ExplainedFrame& frame, WindowPixel pixel
 }
 
 LitSurfaces lit_surfaces(const ExplainedFrame& frame, const PixelSurfaces& surfaces, std::vector<uint32_t> geometry) {
-  const LightModel& model = frame.pipeline.light_model;
   LitSurfaces out;
   out.covered = surfaces.covered;
   out.geometry = std::move(geometry);
-  if (surfaces.covered) out.visible = lit(frame, model, frame.lights, surfaces.visible, surfaces.pixel);
+  if (surfaces.covered) out.visible = lit(frame, frame.lights, surfaces.visible, surfaces.pixel);
   for (size_t i = 0; i < out.geometry.size() && surfaces.covered; ++i)
     if (out.geometry[i] == 0 && out.visible.lights[i].fate == LightFate::adds)
       out.visible.lights[i].fate = LightFate::not_drawn;
   for (const SurfacePlanes& tied : surfaces.tied)
-    out.tied.push_back(lit(frame, model, frame.lights, tied, surfaces.pixel));
+    out.tied.push_back(lit(frame, frame.lights, tied, surfaces.pixel));
   for (const SurfacePlanes& glass : surfaces.glass)
-    out.glass.push_back(lit(frame, model_of_glass(frame), frame.glass_lights, glass, surfaces.pixel));
+    out.glass.push_back(lit(frame, frame.glass_lights, glass, surfaces.pixel));
   return out;
 }
 
@@ -202,7 +175,7 @@ StoredPixel drawn_target(const ExplainedFrame& frame, const LitSurfaces& lit, st
   switch (frame.pipeline.strategy) {
     case Strategy::forward_loop:
     case Strategy::deferred_loop:
-      if (lit.covered) drawing.store("the sum of the lights", sum_of(frame.pipeline.light_model, lit.visible, times));
+      if (lit.covered) drawing.store("the sum of the lights", sum_of(lit.visible, times));
       break;
     case Strategy::deferred_volumes:
       draw_volumes(frame, lit, times, drawing);
@@ -213,7 +186,7 @@ StoredPixel drawn_target(const ExplainedFrame& frame, const LitSurfaces& lit, st
   }
   for (size_t i = 0; i < lit.glass.size(); ++i)
     drawing.draw("transparent surface " + std::to_string(i), kNoLight, frame.pipeline.transparency.blend,
-                 sum_of(model_of_glass(frame), lit.glass[i], times));
+                 sum_of(lit.glass[i], times));
   return drawing.stored;
 }
 

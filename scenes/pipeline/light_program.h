@@ -22,4 +22,7 @@ struct LightProgram {
   bool operator==(const LightProgram&) const = default;
 };
 
+/// Whether a program's text is SPIR-V, which begins with 0x07230203, and not GLSL.
+inline bool is_spirv(std::string_view text) { return text.starts_with(std::string_view("\x03\x02\x23\x07", 4)); }
+
 }  // namespace trueshade

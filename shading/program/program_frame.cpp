@@ -116,11 +116,11 @@ Pipeline with_planes_of_program(const Pipeline& pipeline) {
   return with_planes_of(pipeline, program_reads(executable->program.name, input_names(*executable)));
 }
 
-ProgramFrame::ProgramFrame(const Scene& scene, const Pipeline& pipeline)
+ProgramFrame::ProgramFrame(const Scene& scene, const Pipeline& pipeline, Unlit unlit)
     : executable_(trueshade::executable_of(pipeline.light_program)),
       reads_(program_reads(executable_->program.name, input_names(*executable_))),
       constants_(*executable_) {
-  for (const Material& m : scene.materials) unlit_.push_back(m.unlit);
+  for (const Material& m : scene.materials) unlit_.push_back(m.unlit && unlit == Unlit::shows_albedo);
   set_constants(scene, pipeline);
   set_lights(scene);
 }

@@ -18,11 +18,15 @@ std::shared_ptr<const programs::Executable> executable_of(const LightProgram& pr
 /// changes what a program is given. Pipelines without a program stay as they are.
 Pipeline with_planes_of_program(const Pipeline& pipeline);
 
+/// How a surface of an unlit material gets its colour: the program is not asked, or its planes hold what any light
+/// model makes that colour of.
+enum class Unlit : uint8_t { shows_albedo, by_planes };
+
 /// A light program with what holds for a frame: its parameters, the view, and what it makes of the lights alone.
 class ProgramFrame {
  public:
   /// pipeline: with_planes_of_program(). Error(usage) where a parameter is missing or there is none of its name.
-  ProgramFrame(const Scene& scene, const Pipeline& pipeline);
+  ProgramFrame(const Scene& scene, const Pipeline& pipeline, Unlit unlit = Unlit::shows_albedo);
 
   const programs::Executable& executable() const { return *executable_; }
   const std::shared_ptr<const programs::Executable>& shared_executable() const { return executable_; }

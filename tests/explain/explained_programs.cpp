@@ -190,7 +190,7 @@ TEST_CASE("steps of a trace are numbered operations of a line, with names, value
   CHECK(steps[1].line == 3);
   CHECK(steps[1].expression == "#1.x * #1.x + #1.y * #1.y + #1.z * #1.z");
   CHECK(steps[1].read_elsewhere);
-  const std::array<float, 3>& p = t.total.pixel.position;
+  const std::array<float, 3>& p = t.total.surface.position;
   std::array<float, 3> d;
   for (size_t k = 0; k < 3; ++k) {
     d[k] = scene.lights[0].position[int(k)] - p[k];

@@ -1,0 +1,34 @@
+#pragma once
+// How much more or less light a picture shows than it should, against what a light model could depend on: for pictures
+// that no known fault explains.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "judge/diagnosis/finding.h"
+
+namespace trueshade::oracle {
+
+/// The factor that each light's term seems to have had, as a function of one quantity, by least squares over sampled
+/// pixels of all their lights at once.
+struct LightQuotient {
+  std::string against;  ///< "d / range", "N.L", "N.H", "light"
+  struct Step {
+    double from = 0, to = 0;  ///< of the quantity; of lights both are the index
+    double factor = 1;
+  };
+  std::vector<Step> curve;  ///< where light falls in the picture; ascending
+  double left = 1;          ///< what these factors leave of the difference, a share of its root mean square
+  std::string text;         ///< the plainest description of the curve, a sentence without its full stop
+};
+
+/// Of a picture whose lights are summed: what explains its difference best. Nothing where no quantity explains half of
+/// it, and where a light program's finish() stands between the sum and the picture.
+///   lighting: the stage of the lights, by the same pipeline and profile
+std::optional<LightQuotient> light_quotient(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
+                                            const Capture& capture, const StageVerdict& lighting);
+
+/// As JSON: {against, curve [{from, to, factor}], left, text}.
+std::string quotient_json(const LightQuotient& quotient);
+
+}  // namespace trueshade::oracle
