@@ -182,9 +182,8 @@ std::string conclusion(const Validation& validation) {
                            (left_out > 0 ? "; " + std::to_string(left_out) + " are left out" : "");
   uint64_t undefined = 0;
   for (const StageVerdict& s : v.stages) undefined += s.count(oracle::PixelClass::undefined);
-  const std::string judged = undefined == 0 ? ""
-                                            : ", but for " + std::to_string(undefined) +
-                                                  " UNDEFINED, of which nothing can be said";
+  const std::string judged =
+      undefined == 0 ? "" : ", but for " + std::to_string(undefined) + " UNDEFINED, of which nothing can be said";
   if (violations > 0)
     return std::to_string(violations) + (violations == 1 ? " pixel is" : " pixels are") + " in no legal set" +
            stages_of_violations(v) + post;
@@ -373,7 +372,10 @@ std::string validation_json(const Validation& v) {
 
 void find_explanation(const Scene& scene, Validation& v, std::span<const std::string> supposed) {
   v.findings = oracle::diagnose(scene, v.pipeline, v.profile, v.capture, v.verdict.stages, supposed);
-  if (is_explained(v) || !supposed.empty()) return;
+  constexpr double kWell = 0.95, kHardlyWrong = 0.05;
+  const bool is_told = is_explained(v) && v.findings[0].explained + v.findings[0].located > kWell &&
+                       v.findings[0].contradicted < kHardlyWrong;
+  if (is_told || !supposed.empty()) return;
   for (const oracle::StageVerdict& stage : v.verdict.stages)
     if (stage.stage == "lighting") v.quotient = oracle::light_quotient(scene, v.pipeline, v.profile, v.capture, stage);
 }

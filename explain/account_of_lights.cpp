@@ -78,7 +78,8 @@ void add_lists(const LightTotal& total, Account& to) {
 Account lights_account(const ExplainedFrame& frame, const LightTotal& total, LightsReach reach, const std::string& of,
                        Detail detail) {
   const bool is_stated = !frame.pipeline.light_program.used();
-  Account out("lights", "Lights on " + of + (is_stated ? " (docs/arithmetic.md, section 8)" : " (docs/light_programs.md)"));
+  Account out("lights",
+              "Lights on " + of + (is_stated ? " (docs/arithmetic.md, section 8)" : " (docs/light_programs.md)"));
   if (total.program->is_unlit()) {
     out.add("unlit", total.surface.albedo, "its albedo R, G, B, A is shown, and the program is not asked");
     return out;

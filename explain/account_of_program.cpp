@@ -147,7 +147,7 @@ void add_program_light(const ExplainedFrame& frame, const LightTotal& total, siz
     to.add("reaches", bits[program.program().output[programs::kReachesOutput]] != 0, "counted by light.count");
   if (lines == ProgramLines::left_out) return;
   add_lines(frame, program, bits, "light", programs::kLightOutput, 3, detail, to);
-  if (counts) add_lines(frame, program, bits, "reaches", programs::kReachesOutput, 1, detail, to);
+  if (counts && detail == Detail::all) add_lines(frame, program, bits, "reaches", programs::kReachesOutput, 1, detail, to);
 }
 
 void add_program_sum(const ExplainedFrame& frame, const LightTotal& total, Detail detail, Account& to) {

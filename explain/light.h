@@ -8,8 +8,8 @@
 
 namespace trueshade {
 
-/// Why a light adds something to a pixel, or does not. Of the last three the first that holds: a light that adds nothing
-/// to a surface that faces away from it is `faces_away`, whatever made the light's term 0.
+/// Why a light adds something to a pixel, or does not. Of the last three the first that holds: a light that adds
+/// nothing to a surface that faces away from it is `faces_away`, whatever made the light's term 0.
 enum class LightFate : uint8_t {
   adds,
   out_of_reach,   ///< the squared distance is not below the falloff's or the extent's end, or not finite

@@ -124,8 +124,7 @@ void draw_passes(const ExplainedFrame& frame, const LitSurfaces& lit, LightTimes
     std::array<float, 3> first = visible.start;
     for (int n = lights > 0 && visible.lights[0].fate == LightFate::adds ? times[0] : 0; n > 0; --n)
       for (size_t k = 0; k < 3; ++k) first[k] = first[k] + visible.lights[0].term[k];
-    drawing.store(lights > 0 ? "the first draw, with light 0" : "a draw without lights",
-                  received(visible, first));
+    drawing.store(lights > 0 ? "the first draw, with light 0" : "a draw without lights", received(visible, first));
   }
   std::vector<const LightTotal*> layers;
   if (lit.tied.empty() && lit.covered) layers.push_back(&lit.visible);
@@ -159,8 +158,7 @@ LitSurfaces lit_surfaces(const ExplainedFrame& frame, const PixelSurfaces& surfa
   for (size_t i = 0; i < out.geometry.size() && surfaces.covered; ++i)
     if (out.geometry[i] == 0 && out.visible.lights[i].fate == LightFate::adds)
       out.visible.lights[i].fate = LightFate::not_drawn;
-  for (const SurfacePlanes& tied : surfaces.tied)
-    out.tied.push_back(lit(frame, frame.lights, tied, surfaces.pixel));
+  for (const SurfacePlanes& tied : surfaces.tied) out.tied.push_back(lit(frame, frame.lights, tied, surfaces.pixel));
   for (const SurfacePlanes& glass : surfaces.glass)
     out.glass.push_back(lit(frame, frame.glass_lights, glass, surfaces.pixel));
   return out;

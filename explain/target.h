@@ -25,10 +25,10 @@ struct PixelSurfaces {
 /// The lights on one surface.
 struct LightTotal {
   SurfacePlanes surface;
-  const LightTable* table = nullptr;  ///< whose rows the lights are
-  std::vector<LightAtPixel> lights;   ///< by index in the scene
-  std::array<float, 3> start{};       ///< what the sum starts from
-  std::array<float, 4> sum{};         ///< of all, as the target receives it
+  const LightTable* table = nullptr;                          ///< whose rows the lights are
+  std::vector<LightAtPixel> lights;                           ///< by index in the scene
+  std::array<float, 3> start{};                               ///< what the sum starts from
+  std::array<float, 4> sum{};                                 ///< of all, as the target receives it
   std::shared_ptr<const ProgramAtSurface> program = nullptr;  ///< what lights add, as a program
   bool takes_albedo_alpha = false;                            ///< of a program that does not say what alpha is
 };

@@ -28,6 +28,9 @@ struct LightQuotient {
 std::optional<LightQuotient> light_quotient(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                                             const Capture& capture, const StageVerdict& lighting);
 
+/// A number with three digits that count.
+std::string digits(double x);
+
 /// As JSON: {against, curve [{from, to, factor}], left, text}.
 std::string quotient_json(const LightQuotient& quotient);
 

@@ -39,8 +39,7 @@ Terms terms_of(const LightModel& m) {
   const bool lights_behind =
       m.order == TermOrder::with_ambient || m.diffuse == Diffuse::unclamped || (shines && !m.specular_masked);
   Terms terms{"falloff_" + std::string(kFalloffs[size_t(m.falloff)]), "order_" + std::string(kOrders[size_t(m.order)]),
-              "diffuse_" + std::string(kDiffuses[size_t(m.diffuse)]),
-              "cone_" + std::string(kCones[size_t(m.cone)])};
+              "diffuse_" + std::string(kDiffuses[size_t(m.diffuse)]), "cone_" + std::string(kCones[size_t(m.cone)])};
   const auto add = [&terms](bool holds, const char* name) {
     if (holds) terms.insert(name);
   };

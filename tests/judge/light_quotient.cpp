@@ -17,15 +17,22 @@ using namespace trueshade::testing;
 namespace {
 
 /// Lambert under a falloff, and a highlight of some sharpness.
-LightProgram program(const std::string& falloff, const std::string& sharpness = "16.0", const std::string& diffuse = "c") {
+LightProgram program(const std::string& falloff, const std::string& sharpness = "16.0",
+                     const std::string& diffuse = "c") {
   const std::string text =
       "vec3 light(Surface s, Light l, View v) {\n"
       "  vec3 way = l.position - s.position, n = normalize(s.normal), to = normalize(way);\n"
-      "  float d2 = dot(way, way), d = sqrt(d2), part = d / l.range, window = 1.0 - part * part * part * part;\n"
-      "  float c = max(dot(n, to), 0.0), falloff = " + falloff + ";\n"
+      "  float d2 = dot(way, way), d = sqrt(d2), part = d / l.range, window = max(1.0 - part * part * part * part, "
+      "0.0);\n"
+      "  float c = max(dot(n, to), 0.0), falloff = " +
+      falloff +
+      ";\n"
       "  vec3 h = normalize(to + normalize(v.eye - s.position));\n"
-      "  float shine = c > 0.0 ? pow(max(dot(n, h), 0.0), " + sharpness + ") : 0.0;\n"
-      "  return (s.albedo.rgb * " + diffuse + " + 0.5 * shine) * l.color * falloff;\n}\n";
+      "  float shine = c > 0.0 ? pow(max(dot(n, h), 0.0), " +
+      sharpness +
+      ") : 0.0;\n"
+      "  return (s.albedo.rgb * " +
+      diffuse + " + 0.5 * shine) * l.color * falloff;\n}\n";
   return {"lights.glsl", text, {}, {}};
 }
 
@@ -64,11 +71,11 @@ TEST_CASE("A picture under another falloff is told by its name, and by that of t
     const char *given, *text;
   } rows[] = {
       {"max(1.0 - part * part, 0.0)", "1 - (d/r)^2"},
-      {"max(window, 0.0) / d2", "(1 - (d/r)^4)/d^2, that of KHR_lights_punctual"},
+      {"window / d2", "(1 - (d/r)^4)/d^2, that of KHR_lights_punctual"},
       {"window * window / d2", "(1 - (d/r)^4)^2/d^2, that of Frostbite"},
       {"1.0 / (d2 + 1.0)", "1/(d^2 + 1), without a window"},
       {"1.0 / d2", "1/d^2, without a window"},
-      {"0.5 * (1.0 - part)", "0.5 times 1 - d/r"},
+      {"0.5 * max(1.0 - part, 0.0)", "0.5 times 1 - d/r"},
   };
   for (const auto& [given, text] : rows)
     for (const Format target : {Format::rgba16f, Format::rgba8}) {
@@ -88,8 +95,8 @@ TEST_CASE("Another highlight and another diffuse term are told by the cosine tha
   REQUIRE(sharper);
   CHECK(sharper->against == "N.H");
   CHECK(sharper->text.starts_with("another highlight"));
-  const auto wrapped =
-      quotient(scene, program(kUe4, "16.0"), captured(scene, pipeline_of(program(kUe4, "16.0", "(c * (0.5 + 0.5 * c))"))));
+  const auto wrapped = quotient(scene, program(kUe4, "16.0"),
+                                captured(scene, pipeline_of(program(kUe4, "16.0", "(c * (0.5 + 0.5 * c))"))));
   REQUIRE(wrapped);
   CHECK(wrapped->against == "N.L");
   CHECK(wrapped->text.starts_with("another diffuse term"));

@@ -1,11 +1,10 @@
 // Light models that a pipeline states, as light programs: their bits are those of the naive loop over
 // docs/arithmetic.md section 8, whatever terms they have.
-#include "scenes/light_models/stated_model.h"
-
 #include "core/simd/simd_target.h"
 #include "programs/front/light_program.h"
 #include "scenes/camera.h"
 #include "scenes/light_cone.h"
+#include "scenes/light_models/stated_model.h"
 #include "scenes/pipeline/presets.h"
 #include "tests/catch.hpp"
 #include "tests/programs/random_words.h"

@@ -1,0 +1,71 @@
+#pragma once
+// What lights should add to sampled pixels, and how far the picture is off there.
+#include <cmath>
+#include <vector>
+
+#include "judge/diagnosis/picture_case.h"
+#include "judge/diagnosis/triple.h"
+
+namespace trueshade::oracle {
+
+/// One light at one pixel.
+struct Share {
+  uint32_t light = 0;
+  Triple3 term{};                   ///< what it should add
+  double d = 0;                     ///< scene units; 0 of a light without a place
+  double part = 0, nl = 0, nh = 0;  ///< d / range; cosines
+};
+
+struct SharedPixel {
+  PlainSurface surface;
+  Triple3 off{}, weight{};  ///< what is given minus what is right; 1 / error^2, 0 where the channel says nothing
+  std::vector<Share> lights;
+};
+
+/// The sampled pixels of a picture, each with the shares of its lights. Borrows the scene and the capture.
+class LightShares {
+ public:
+  LightShares(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
+              const StageVerdict& lighting);
+
+  const Scene& scene() const { return scene_; }
+  const LightPass& pass() const { return pass_; }  ///< that is right
+  const std::vector<SharedPixel>& pixels() const { return pixels_; }
+  bool differs() const { return before_ > 0; }
+
+  /// Squares of a difference, in errors.
+  static double squared(const SharedPixel& p, const Triple3& off) {
+    return p.weight[0] * off[0] * off[0] + p.weight[1] * off[1] * off[1] + p.weight[2] * off[2] * off[2];
+  }
+
+  /// Squares of what is left, in errors, where each term is changed by a part of it.
+  template <class Part>
+  double error_with(const Part& part) const {
+    double sum = 0;
+    for (const SharedPixel& p : pixels_) {
+      Triple3 off = p.off;
+      for (const Share& s : p.lights) off = minus(off, times(s.term, part(s)));
+      sum += squared(p, off);
+    }
+    return sum;
+  }
+  /// A share of the difference, without what rounding leaves of a right picture: a third of the squared half step.
+  double left_of(double error) const {
+    double rounding = 0;
+    for (const SharedPixel& p : pixels_)
+      for (const double w : p.weight) rounding += w > 0 ? 1.0 / 3 : 0;
+    return std::sqrt(std::max(error - rounding, 0.0) / std::max(before_ - rounding, 1e-300));
+  }
+
+ private:
+  void add(int x, int y);
+  Share share(const SharedPixel& pixel, const LightAdded& added) const;
+
+  const Scene& scene_;
+  const PictureCase case_;
+  const LightPass pass_;
+  std::vector<SharedPixel> pixels_;
+  double before_ = 0;
+};
+
+}  // namespace trueshade::oracle
