@@ -221,6 +221,7 @@ CommandTable view_table(ViewOptions& options, ViewTexts& texts) {
   add_size(table, texts.size);
   add_time(table, texts.time);
   add_layers(table, options);
+  add_light_program(table, options);
   add_strategy(table, texts.strategy);
   add_target(table, texts.target);
   add_profile(table, texts.profile);

@@ -54,7 +54,8 @@ Metadata metadata_of(const RenderedFrame& result) {
                        {"trueshade:sceneHash", "sha256:" + result.scene_hash}};
   if (!result.cube_map.empty()) metadata.emplace_back("trueshade:cubeMap", result.cube_map);
   if (!result.execution.region.whole()) metadata.emplace_back("trueshade:region", region_text(result.execution.region));
-  if (!result.scene.timeline.empty()) metadata.emplace_back("trueshade:time", json_number(result.time));
+  const bool is_read = !result.scene.timeline.empty() || result.pipeline.light_program.used();  // the time
+  if (is_read) metadata.emplace_back("trueshade:time", json_number(result.time));
   metadata.emplace_back("trueshade:version", kVersion);
   if (result.frame.view_scale > 0)
     metadata.emplace_back("trueshade:viewScale", std::to_string(result.frame.view_scale));

@@ -13,7 +13,9 @@
 #include "scenes/builtin/builtin.h"
 #include "scenes/light_models/light_models.h"
 #include "scenes/light_models/stated_model.h"
+#include "scenes/pipeline/parameter_ranges.h"
 #include "scenes/pipeline/presets.h"
+#include "scenes/pipeline/program_inputs.h"
 #include "shading/frame.h"
 
 namespace trueshade {
@@ -86,22 +88,18 @@ std::string text_of(const std::vector<Section>& list) {
   return text;
 }
 
+struct ParameterFacts {
+  std::string name, type, range;  ///< type: of GLSL; range: empty where the program states none
+};
+
 /// What a user of a light program must know of it.
 struct ProgramFacts {
   LightProgram program;
-  std::string about;                                            ///< of a model that ships
-  std::vector<std::pair<std::string, std::string>> parameters;  ///< names and types of GLSL
-  std::vector<std::string> fields;                              ///< that it reads: surface.normal, light.range
-  std::vector<std::string> functions{"light"};                  ///< that it defines
+  std::string about;  ///< of a model that ships
+  std::vector<ParameterFacts> parameters;
+  std::vector<std::string> fields;              ///< that it reads: surface.normal, light.range
+  std::vector<std::string> functions{"light"};  ///< that it defines
 };
-
-/// "surface.normal.x" without its component; a scalar's name, "parameters.x", as it is.
-std::string without_component(const std::string& name) {
-  const size_t end = name.size() - 2;
-  const bool is_component =
-      name.find('.') < end && name[end] == '.' && std::string_view("xyzw").find(name.back()) != std::string_view::npos;
-  return is_component ? name.substr(0, end) : name;
-}
 
 std::string glsl_type(programs::Type type, size_t components) {
   constexpr const char *kScalar[] = {"float", "int", "uint", "bool"}, *kVector[] = {"vec", "ivec", "uvec", "bvec"};
@@ -123,16 +121,20 @@ void find_program(const std::string& name, ProgramFacts& facts) {
 ProgramFacts facts_of(const std::string& name) {
   ProgramFacts facts;
   find_program(name, facts);
-  const programs::LightOutline outline = programs::light_outline(facts.program.file, facts.program.text, "");
-  const std::string_view block = "parameters.";
+  const programs::LightOutline outline = programs::light_outline(facts.program.file, facts.program.text);
+  const std::vector<DeclaredParameter> declared = declared_parameters(facts.program.text);
   for (size_t i = 0, next = 0; i < outline.parameters.size(); i = next) {
     const std::string whole = without_component(outline.parameters[i].name);
     for (next = i; next < outline.parameters.size() && without_component(outline.parameters[next].name) == whole;)
       ++next;
-    facts.parameters.emplace_back(whole.substr(block.size()), glsl_type(outline.parameters[i].type, next - i));
+    const std::string own = whole.substr(kParameterBlock.size());
+    const ParameterRange* const range = range_of(declared, own);
+    facts.parameters.push_back(
+        {own, glsl_type(outline.parameters[i].type, next - i), range ? range->text() : std::string()});
   }
   for (const std::string& input : outline.inputs)
-    if (const std::string field = without_component(input); !field.starts_with(block) && !field.starts_with("sum.") &&
+    if (const std::string field = without_component(input); !field.starts_with(kParameterBlock) &&
+                                                            !field.starts_with("sum.") &&
                                                             (facts.fields.empty() || facts.fields.back() != field))
       facts.fields.push_back(field);
   if (outline.defines_reaches) facts.functions.emplace_back("reaches");
@@ -148,8 +150,12 @@ std::string json_of(const ProgramFacts& facts) {
   json.put("sha256", facts.program.sha256);
   if (!is_spirv(facts.program.text)) json.put("text", facts.program.text);
   JsonArray parameters, reads, defines;
-  for (const auto& [name, type] : facts.parameters)
-    parameters.add_raw(JsonObject().put("name", name).put("type", type).text());
+  for (const ParameterFacts& parameter : facts.parameters) {
+    JsonObject one;
+    one.put("name", parameter.name).put("type", parameter.type);
+    if (!parameter.range.empty()) one.put("range", parameter.range);
+    parameters.add_raw(one.text());
+  }
   for (const std::string& field : facts.fields) reads.add_raw(json_string(field));
   for (const std::string& function : facts.functions) defines.add_raw(json_string(function));
   json.put_raw("parameters", parameters.text()).put_raw("reads", reads.text()).put_raw("defines", defines.text());
@@ -159,7 +165,9 @@ std::string json_of(const ProgramFacts& facts) {
 std::string text_of(const ProgramFacts& facts) {
   Section what{"", facts.program.file, {{"sha256", facts.program.sha256}}};
   if (!facts.about.empty()) what.heading += ": " + facts.about;
-  Section parameters{"", "Parameters (--light-parameter NAME=VALUE)", facts.parameters};
+  Section parameters{"", "Parameters (--light-parameter NAME=VALUE)", {}};
+  for (const ParameterFacts& one : facts.parameters)
+    parameters.entries.emplace_back(one.name, one.type + (one.range.empty() ? "" : ", " + one.range));
   if (facts.parameters.empty()) parameters.entries = {{"none", ""}};
   Section reads{"", "Reads", {}}, defines{"", "Defines", {}};
   for (const std::string& field : facts.fields) reads.entries.emplace_back(field, "");

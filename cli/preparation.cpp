@@ -85,9 +85,6 @@ LightProgram light_program_of(const std::string& name) {
   return program;
 }
 
-namespace {
-
-/// `gain=2` or `tint=1,0.5,0.2`.
 ProgramParameter parameter_of(const std::string& text) {
   const size_t equals = text.find('=');
   const auto wrong = [&] {
@@ -104,6 +101,8 @@ ProgramParameter parameter_of(const std::string& text) {
   }
   return out;
 }
+
+namespace {
 
 /// The program of --light-shader, or a model that the pipeline names. Where the pipeline says which text, it must be
 /// that.

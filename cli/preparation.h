@@ -36,6 +36,9 @@ uint64_t file_memory(const Pipeline& pipeline, const PictureRegion& region, std:
 /// What --light-shader names: a model that ships, or a file of GLSL or SPIR-V. Without parameters.
 LightProgram light_program_of(const std::string& name);
 
+/// `gain=2` or `tint=1,0.5,0.2`. Error(usage) of other texts.
+ProgramParameter parameter_of(const std::string& text);
+
 /// The pipeline of all layers, each over the one before: preset, scene file, pipeline file, options. Valid.
 Pipeline pipeline_of(const PipelineOptions& options, const Scene& scene);
 

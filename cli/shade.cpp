@@ -34,6 +34,10 @@ GivenSurfaces surfaces_of(const oracle::Capture& capture, const Pipeline& pipeli
   given.albedo = capture.plane("albedo");
   given.specular = capture.plane("specular");
   given.emission = capture.plane("emission");
+  given.metallic = capture.plane("metallic"), given.roughness = capture.plane("roughness");
+  given.occlusion = capture.plane("occlusion"), given.material = capture.plane("id.material");
+  given.uv = capture.plane("uv"), given.uv1 = capture.plane("uv1"), given.tangent = capture.plane("tangent");
+  for (size_t i = 0; i < 4; ++i) given.user[i] = capture.plane("user" + std::to_string(i));
   given.clear_depth = pipeline.geometry.clear_depth;
   return given;
 }

@@ -32,24 +32,22 @@ std::array<std::array<float, 3>, 3> normal_rows(const glm::mat4x3& world_from_ob
 
 }  // namespace
 
-Matrix4 projection_of(const Camera& camera, const GeometryState& state, int width, int height) {
-  Matrix4 result{};
-  if (camera.clip_from_world) {
-    for (size_t i = 0; i < 16; ++i) result[i] = double((*camera.clip_from_world)[i]);
-    if (camera.matrix_has_gl_range && state.clip_depth == ClipDepth::zero_to_one)
-      for (size_t c = 0; c < 4; ++c) result[4 * c + 2] = (result[4 * c + 2] + result[4 * c + 3]) / 2;
-    return result;
-  }
+static std::array<Real, 16> view_of(const Camera& camera) {
   const Vector eye = vector_of(camera.eye);
   const Vector f = unit(difference(vector_of(camera.target), eye)), s = unit(cross(f, vector_of(camera.up)));
   const Vector u = cross(s, f);
-  std::array<Real, 16> view{}, projection{};
+  std::array<Real, 16> view{};
   const Vector rows[3] = {s, u, {-f[0], -f[1], -f[2]}};
   for (size_t r = 0; r < 3; ++r) {
     for (size_t c = 0; c < 3; ++c) at(view, r, c) = rows[r][c];
     at(view, r, 3) = -dot(rows[r], eye);
   }
   at(view, 3, 3) = 1;
+  return view;
+}
+
+static std::array<Real, 16> lens_of(const Camera& camera, const GeometryState& state, int width, int height) {
+  std::array<Real, 16> projection{};
   const Viewport viewport = resolved_viewport(state, width, height);
   const Real aspect = Real(viewport.width) / viewport.height, near = camera.near, far = camera.far;
   const Real g =
@@ -60,6 +58,30 @@ Matrix4 projection_of(const Camera& camera, const GeometryState& state, int widt
   at(projection, 2, 2) = (zero_to_one ? far : far + near) / (near - far);
   at(projection, 2, 3) = (zero_to_one ? 1 : 2) * far * near / (near - far);
   at(projection, 3, 2) = -1;
+  return projection;
+}
+
+static Matrix4 rounded_to_double(const std::array<Real, 16>& matrix) {
+  Matrix4 result{};
+  for (size_t i = 0; i < 16; ++i) result[i] = double(matrix[i]);
+  return result;
+}
+
+Matrix4 view_matrix(const Camera& camera) { return rounded_to_double(view_of(camera)); }
+
+Matrix4 lens_matrix(const Camera& camera, const GeometryState& state, int width, int height) {
+  return rounded_to_double(lens_of(camera, state, width, height));
+}
+
+Matrix4 projection_of(const Camera& camera, const GeometryState& state, int width, int height) {
+  Matrix4 result{};
+  if (camera.clip_from_world) {
+    for (size_t i = 0; i < 16; ++i) result[i] = double((*camera.clip_from_world)[i]);
+    if (camera.matrix_has_gl_range && state.clip_depth == ClipDepth::zero_to_one)
+      for (size_t c = 0; c < 4; ++c) result[4 * c + 2] = (result[4 * c + 2] + result[4 * c + 3]) / 2;
+    return result;
+  }
+  std::array<Real, 16> view = view_of(camera), projection = lens_of(camera, state, width, height);
   for (size_t r = 0; r < 4; ++r)
     for (size_t c = 0; c < 4; ++c) {
       Real sum = 0;

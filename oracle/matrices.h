@@ -10,6 +10,10 @@ namespace trueshade::oracle {
 /// clip_from_world as real numbers; the camera's matrix where it has one.
 Matrix4 projection_of(const Camera& camera, const GeometryState& state, int width, int height);
 
+/// Its two factors, of a camera that is not a matrix: the view's, and the projection's.
+Matrix4 view_matrix(const Camera& camera);
+Matrix4 lens_matrix(const Camera& camera, const GeometryState& state, int width, int height);
+
 /// The view's z axis in the world, towards the viewer, of unit length: against the row of w, or, where that has no
 /// direction (orthographic), the row of z.
 std::array<double, 3> view_axis(const Matrix4& clip_from_world);

@@ -107,18 +107,18 @@ void each_member(auto& visit, Same<PosedMesh> auto& value) {
 }
 
 void each_member(auto& visit, Same<Timeline> auto& value) {
-  auto& [fps, motions, instances, materials, lights, orbits, camera, nodes, node_motions, node_instances, node_lights,
-         node_camera, skins, shapes, posed] = value;
-  each_of(visit, fps, motions, instances, materials, lights, orbits, camera, nodes, node_motions, node_instances,
-          node_lights, node_camera, skins, shapes, posed);
+  auto& [fps, stands_at, motions, instances, materials, lights, orbits, camera, nodes, node_motions, node_instances,
+         node_lights, node_camera, skins, shapes, posed] = value;
+  each_of(visit, fps, stands_at, motions, instances, materials, lights, orbits, camera, nodes, node_motions,
+          node_instances, node_lights, node_camera, skins, shapes, posed);
 }
 
 /// All but the meshes, which are stored first, one by one, and the digests, which the file's maker stores.
 void each_member(auto& visit, Same<Scene> auto& value) {
-  auto& [spec, meshes, materials, textures, instances, lights, camera, clear, pipeline_text, timeline, photometric,
-         lights_of_ours, digests, notes] = value;
-  each_of(visit, spec, materials, textures, instances, lights, camera, clear, pipeline_text, timeline, photometric,
-          lights_of_ours, notes);
+  auto& [spec, meshes, materials, textures, instances, lights, camera, clear, pipeline_text, timeline, time,
+         photometric, lights_of_ours, digests, notes] = value;
+  each_of(visit, spec, materials, textures, instances, lights, camera, clear, pipeline_text, timeline, time,
+          photometric, lights_of_ours, notes);
 }
 
 void each_member(auto& visit, Same<FileState> auto& value) {

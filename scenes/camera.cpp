@@ -9,7 +9,10 @@ namespace {
 
 double& at(Matrix4& m, int row, int column) { return m[size_t(4 * column + row)]; }
 
+}  // namespace
+
 Matrix4 clip_from_view(const Camera& camera, double aspect, ClipRange range) {
+  const FpScope fp;
   const bool zero_to_one = range == ClipRange::zero_to_one;
   Matrix4 m{};
   if (camera.fov_x_rad) {
@@ -27,8 +30,6 @@ Matrix4 clip_from_view(const Camera& camera, double aspect, ClipRange range) {
   at(m, 3, 2) = -1.0;
   return m;
 }
-
-}  // namespace
 
 Matrix4 product(const Matrix4& a, const Matrix4& b) {
   const FpScope fp;

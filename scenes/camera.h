@@ -29,6 +29,10 @@ enum class ClipRange : uint8_t { negative_one_to_one, zero_to_one };
 /// matrix handed over by an engine is taken as it is, a matrix of ours with the z of the range.
 Matrix4 clip_from_world(const Camera& camera, double aspect, ClipRange range = ClipRange::negative_one_to_one);
 
+/// Its two factors, of a camera that is not a matrix: view space has the eye at 0, looking along -z, y up.
+Matrix4 clip_from_view(const Camera& camera, double aspect, ClipRange range);
+Matrix4 view_from_world(const Camera& camera);
+
 /// The view's z axis in the world, from the scene to the viewer, of unit length: minus the row of w, or where that has
 /// no direction (an orthographic matrix) minus the row of z. OpenGL's viewer at infinity, (0, 0, 1) in eye space.
 glm::vec3 view_axis(const Camera& camera);

@@ -20,9 +20,6 @@ glm::dmat4x3 matrix_of(const Placement& placement);
 /// a * b of affine matrices, each element (a0*b0 + a1*b1) + a2*b2, the last column's + a3.
 glm::dmat4x3 product(const glm::dmat4x3& a, const glm::dmat4x3& b);
 
-/// View space (the eye at 0, looking along -z, y up) from world space, of a camera with eye, target and up.
-Matrix4 view_from_world(const Camera& camera);
-
 Placement placement_at(const ObjectMotion& motion, double time);
 std::vector<double> weights_at(const WeightTrack& track, double time);
 

@@ -96,6 +96,7 @@ struct Scene {
   std::string pipeline_text;  ///< JSON of the scene file's "pipeline", for pipeline_from_json(); empty if it has none
 
   Timeline timeline;  ///< what set_time() moves
+  double time = 0.0;  ///< seconds: where set_time() has left it
 
   /// Lights are in candela and lux, and materials of glTF's model: without a preset the pipeline is that of
   /// default_pipeline() in scenes/pipeline/presets.h.
@@ -124,6 +125,9 @@ inline constexpr double kLatestTime = 1e6;
 /// (Timeline::posed); other meshes stay. The same bits whatever the time was before. Error(usage) for a time out of
 /// range, Error(bad_input) where what moves leaves its range.
 void set_time(Scene& scene, double time);
+
+/// The number of the frame that is nearest to the scene's time, 0 before the first.
+uint32_t frame_at(const Scene& scene);
 
 /// validate() of what set_time() moves. Throws Error(bad_input) with the time.
 void validate_moving(const Scene& scene, double time);

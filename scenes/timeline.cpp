@@ -194,11 +194,16 @@ void set_property(Camera& camera, CameraProperty property, const glm::dvec4& val
   }
 }
 
+uint32_t frame_at(const Scene& scene) {
+  return uint32_t(std::clamp(std::floor(scene.time * scene.timeline.fps + 0.5), 0.0, 4294967295.0));
+}
+
 void set_time(Scene& scene, double time) {
   const FpScope fp;
   if (!(std::fabs(time) <= kLatestTime))
     throw Error(ErrorKind::usage, "time", "it is no number of seconds within 1e6", "say 1.5");
   const Timeline& timeline = scene.timeline;
+  scene.time = timeline.stands_at.value_or(time);
   move_hierarchy(scene, time);
   for (const MovingInstance& moving : timeline.instances) {
     const Placement placement = copied(placement_at(timeline.motions[moving.motion], time), moving.copy);

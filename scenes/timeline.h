@@ -157,6 +157,7 @@ struct CameraMotion {
 /// All that moves; empty for a scene that stands still.
 struct Timeline {
   double fps = 24.0;  ///< frame n is at n / fps seconds
+  std::optional<double> stands_at;  ///< seconds, of a scene that shows one moment of another, whatever the time
   std::vector<ObjectMotion> motions;
   std::vector<MovingInstance> instances;
   std::vector<MaterialMotion> materials;

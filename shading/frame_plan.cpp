@@ -35,7 +35,7 @@ Pipeline without_idle_emission(const Scene& scene, const Pipeline& pipeline) {
 }
 
 FramePlan plan_frame(const Scene& scene, const Pipeline& pipeline, const Execution& execution,
-                     std::span<const std::string> planes, bool lit) {
+                     std::span<const std::string> planes, bool lit, const CapturedFields& there) {
   FramePlan plan{};
   plan.execution = execution;
   const PictureRegion drawn = drawn_region(pipeline, execution.region);
@@ -45,7 +45,8 @@ FramePlan plan_frame(const Scene& scene, const Pipeline& pipeline, const Executi
   plan.transparency = draws_transparent(scene, pipeline) ? pipeline.transparency.mode : TransparencyMode::none;
   plan.tied_fragments = pipeline.strategy == Strategy::forward_multipass;
   const bool shows_uv = std::find(planes.begin(), planes.end(), "uv") != planes.end();
-  if (lit && pipeline.light_program.used()) plan.program = std::make_shared<ProgramFrame>(scene, pipeline);
+  if (lit && pipeline.light_program.used())
+    plan.program = std::make_shared<ProgramFrame>(scene, pipeline, Unlit::shows_albedo, there);
   const bool reads_uv = plan.program != nullptr && plan.program->reads().uv;
   plan.uv_planes = shows_uv || reads_uv ? UvPlanes::filled : UvPlanes::omitted;
   plan.light_geometry = plan.blends() && execution.count_as_gl;

@@ -42,9 +42,9 @@ struct FramePlan {
   bool light_geometry;  ///< pixels under light geometry are counted, as GlCounts::light_pixels
   GBufferState surface_planes;  ///< the planes that lights read surfaces from
   BlendTarget target;
-  glm::vec4 clear;                  ///< the colour that a draw stores as what a clear leaves
-  LightShortcuts shortcuts;         ///< of the pass that sums
-  std::vector<PlaneSource> planes;  ///< of each plane asked for, in order
+  glm::vec4 clear;                              ///< the colour that a draw stores as what a clear leaves
+  LightShortcuts shortcuts;                     ///< of the pass that sums
+  std::vector<PlaneSource> planes;              ///< of each plane asked for, in order
   std::shared_ptr<const ProgramFrame> program;  ///< what lights add in place of a light model; null: none
 
   bool lit() const { return light_pass != LightPass::none; }
@@ -55,8 +55,9 @@ struct FramePlan {
 /// The pipeline without the plane of emission where no material fills it: the same bits, and less memory to go through.
 Pipeline without_idle_emission(const Scene& scene, const Pipeline& pipeline);
 
-/// `planes`: as planes_to_draw() gives them. `lit`: whether the target or a plane that shows light is wanted.
+/// `planes`: as planes_to_draw() gives them. `lit`: whether the target or a plane that shows light is wanted. `there`:
+/// what surfaces of a capture have besides.
 FramePlan plan_frame(const Scene& scene, const Pipeline& pipeline, const Execution& execution,
-                     std::span<const std::string> planes, bool lit);
+                     std::span<const std::string> planes, bool lit, const CapturedFields& there);
 
 }  // namespace trueshade

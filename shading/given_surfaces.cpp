@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <string>
+#include <utility>
 
 #include "core/error.h"
 
@@ -40,15 +41,60 @@ void check_surfaces(const GivenSurfaces& given, const Pipeline& pipeline) {
   check_plane(given.position, "position", false, pipeline);
   check_plane(given.normal, "normal", true, pipeline);
   check_plane(given.albedo, "albedo", true, pipeline);
-  check_plane(given.specular, "specular", reads_specular_plane(pipeline.light_model), pipeline);
+  const bool by_program = pipeline.light_program.used();  // see check_fields()
+  check_plane(given.specular, "specular", !by_program && reads_specular_plane(pipeline.light_model), pipeline);
   check_plane(given.emission, "emission", false, pipeline);
 }
+
+CapturedFields captured_fields(const GivenSurfaces& given) {
+  CapturedFields there{given.uv1 != nullptr, given.tangent != nullptr, {}};
+  for (size_t i = 0; i < there.user.size(); ++i) there.user[i] = given.user[i] != nullptr;
+  return there;
+}
+
+void check_fields(const GivenSurfaces& given, const ProgramReads& reads, const Pipeline& pipeline) {
+  const bool splits_metals = given.metallic != nullptr && given.roughness != nullptr;
+  check_plane(given.specular, "specular", reads.gloss || (reads.metals && !splits_metals), pipeline);
+  check_plane(given.object, "id.object", reads.object, pipeline);
+  check_plane(given.material, "id.material", reads.material, pipeline);
+  check_plane(given.uv, "uv", reads.uv, pipeline);
+  const std::pair<const Image*, const char*> others[] = {
+      {given.metallic, "metallic"}, {given.roughness, "roughness"}, {given.occlusion, "occlusion"},
+      {given.uv1, "uv1"},           {given.tangent, "tangent"},     {given.user[0], "user0"},
+      {given.user[1], "user1"},     {given.user[2], "user2"},       {given.user[3], "user3"}};
+  for (const auto& [image, name] : others) check_plane(image, name, false, pipeline);
+}
+
+namespace {
+
+void load_captured(const GivenSurfaces& given, int x, int y, int i, CapturedTile& out) {
+  for (int c = 0; c < 2; ++c) out.plane[kUv1 + c][i] = plane_value(given.uv1, x, y, c, 0.0f);
+  for (int c = 0; c < 4; ++c) {
+    out.plane[kTangent + c][i] = plane_value(given.tangent, x, y, c, 1.0f);
+    for (int k = 0; k < 4; ++k)
+      out.plane[kUser + 4 * k + c][i] = plane_value(given.user[k], x, y, c, c < 3 ? 0.0f : 1.0f);
+  }
+}
+
+/// Fields that light programs alone read, in place of what the planes of ours have.
+void load_fields(const GivenSurfaces& given, int x, int y, int i, SurfaceTile& out) {
+  for (int c = 0; c < 2; ++c) out.plane[kUv + c][i] = plane_value(given.uv, x, y, c, 0.0f);
+  if (given.metallic != nullptr) out.plane[kSpecular][i] = plane_value(given.metallic, x, y, 0, 0.0f);
+  if (given.roughness != nullptr) out.plane[kSpecular + 1][i] = plane_value(given.roughness, x, y, 0, 0.0f);
+  if (given.occlusion != nullptr) out.plane[kOcclusion][i] = plane_value(given.occlusion, x, y, 0, 1.0f);
+  if (given.object != nullptr) out.object[i] = given.object->code(x, y, 0);
+  if (given.material != nullptr) out.material[i] = given.material->code(x, y, 0);
+  if (out.captured != nullptr) load_captured(given, x, y, i, *out.captured);
+}
+
+}  // namespace
 
 void load_surfaces(const GivenSurfaces& given, const View& view, const TileRect& rect, VisibilityTile& visible,
                    SurfaceTile& out) {
   const bool halved = info(given.normal->format).number_class == NumberClass::unorm;
   out.covered_pixels = 0;
   out.x = rect.x, out.y = rect.y;
+  if (captured_fields(given).any() && out.captured == nullptr) out.captured = std::make_unique<CapturedTile>();
   for (int in_tile_y = 0; in_tile_y < rect.size; ++in_tile_y)
     for (int in_tile_x = 0; in_tile_x < rect.size; ++in_tile_x) {
       const int i = tile_index(rect.size, in_tile_x, in_tile_y);
@@ -72,6 +118,7 @@ void load_surfaces(const GivenSurfaces& given, const View& view, const TileRect&
         out.plane[kSpecular + c][i] = plane_value(given.specular, x, y, c, 0.0f);
         out.plane[kEmission + c][i] = plane_value(given.emission, x, y, c, c < 3 ? 0.0f : 1.0f);
       }
+      load_fields(given, x, y, i, out);
     }
   if (given.position == nullptr) positions_from_depth(view, rect, visible.depth, out);
 }

@@ -2,6 +2,7 @@
 #include "core/image.h"
 #include "raster/surfaces/surfaces.h"
 #include "raster/view.h"
+#include "scenes/pipeline/program_inputs.h"
 #include "shading/frame.h"
 
 namespace trueshade {
@@ -16,6 +17,12 @@ struct GivenSurfaces {
   const Image* albedo = nullptr;    ///< linear; without a fourth channel alpha is 1
   const Image* specular = nullptr;  ///< RGB the specular colour, A the shininess; where the light model reads them
   const Image* emission = nullptr;  ///< RGB, A the share of ambient light; absent: 0, 1
+
+  // What light programs may read besides.
+  const Image *metallic = nullptr, *roughness = nullptr, *occlusion = nullptr;  ///< before those of other planes
+  const Image *uv = nullptr, *uv1 = nullptr, *tangent = nullptr;
+  const Image* user[4] = {};
+  const Image* material = nullptr;  ///< r32ui: index + 1
   float clear_depth = 1.0f;         ///< tells surfaces where there is no `object`
 };
 
@@ -23,6 +30,12 @@ struct GivenSurfaces {
 /// Error(usage) for forward-multipass, which blends fragments of equal depth that no G-buffer has, for a post chain
 /// with samples, which lights more pixels than there are, and for a view but the lit one.
 void check_surfaces(const GivenSurfaces& given, const Pipeline& pipeline);
+
+/// The fields of captures that are there.
+CapturedFields captured_fields(const GivenSurfaces& given);
+
+/// Error(bad_input) naming a plane that a light program reads and that is not there.
+void check_fields(const GivenSurfaces& given, const ProgramReads& reads, const Pipeline& pipeline);
 
 /// The tile's surfaces and depths from the images, in place of draw_visibility() and resolve_surfaces().
 void load_surfaces(const GivenSurfaces& given, const View& view, const TileRect& rect, VisibilityTile& visible,

@@ -60,6 +60,14 @@ void FrameMaker::replace(Loader load) {
   change_.notify_all();
 }
 
+void FrameMaker::work_on(std::function<void()> task) {
+  {
+    const std::lock_guard lock(mutex_);
+    tasks_.push_back(std::move(task));
+  }
+  change_.notify_all();
+}
+
 void FrameMaker::post(Mail mail) {
   {
     const std::lock_guard lock(mutex_);
@@ -95,7 +103,7 @@ bool FrameMaker::is_refused(uint64_t revision) const {
 
 bool FrameMaker::busy() const {
   const std::lock_guard lock(mutex_);
-  return at_work_ || asked_ || loader_ || !jobs_.empty() || !mail_.empty();
+  return at_work_ || asked_ || loader_ || !tasks_.empty() || !jobs_.empty() || !mail_.empty();
 }
 
 /// What a user gave us wrongly is a problem to tell of; the window goes on.
@@ -172,7 +180,7 @@ void FrameMaker::load_next() {
 void FrameMaker::work() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    const auto wanted = [this] { return ends_ || asked_ || loader_ || ready_job(); };
+    const auto wanted = [this] { return ends_ || asked_ || loader_ || !tasks_.empty() || ready_job(); };
     const bool hash_is_missing = drawn_ && hashed_revision_ != drawn_->state.revision;
     at_work_ = false;
     if (!hash_is_missing)
@@ -189,7 +197,13 @@ void FrameMaker::work() {
       continue;
     }
     at_work_ = true;
-    if (ready_job()) {
+    if (!tasks_.empty() && !ends_) {
+      const std::function<void()> task = std::move(tasks_.front());
+      tasks_.pop_front();
+      lock.unlock();
+      run(task);
+      lock.lock();
+    } else if (ready_job()) {
       const WaitingJob next = std::move(jobs_.front());
       const std::shared_ptr<const DrawnPicture> picture = is_current_ ? drawn_ : nullptr;
       jobs_.pop_front();

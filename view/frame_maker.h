@@ -49,6 +49,9 @@ class FrameMaker {
   using Loader = std::function<std::unique_ptr<EditedScene>()>;
   void replace(Loader load);
 
+  /// Calls a task in the maker's thread, before pictures that wait. What it throws comes as a problem.
+  void work_on(std::function<void()> task);
+
   using Mail = std::function<void()>;
   void post(Mail mail);  ///< from the maker's thread; to be called by who takes it
   std::vector<Mail> take_mail();
@@ -82,6 +85,7 @@ class FrameMaker {
   std::optional<ViewState> asked_;
   ViewState last_asked_;
   std::deque<WaitingJob> jobs_;
+  std::deque<std::function<void()>> tasks_;
   std::optional<Loader> loader_;
   std::vector<Mail> mail_;
   std::shared_ptr<const DrawnPicture> drawn_;

@@ -31,6 +31,7 @@ enum class Action : uint8_t {
   lights_panel,
   pixel_panel,
   statistics_panel,
+  model_panel,
   hide_panels,
   save_picture,
   save_scene,

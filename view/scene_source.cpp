@@ -10,8 +10,6 @@
 namespace trueshade::viewer {
 namespace {
 
-constexpr double kLongest = 60.0;  // seconds
-
 /// `city` of builtin:city,seed=3 and of models/city.gltf.
 std::string name_of_spec(const std::string& spec) {
   constexpr std::string_view kBuiltin = "builtin:";
@@ -51,7 +49,7 @@ double last_time_of(const Timeline& timeline) {
   for (const PosedMesh& posed : timeline.posed)
     if (posed.motion && !posed.motion->times.empty()) last = std::max(last, posed.motion->times.back());
   for (const Orbit& orbit : timeline.orbits) last = std::max(last, double(orbit.period));
-  return std::min(last, kLongest);
+  return std::min(last, kLongestTime);
 }
 
 OpenedScene opened_scene(const SceneSource& source, std::vector<std::string>& files) {
@@ -69,6 +67,7 @@ OpenedScene opened_scene(const SceneSource& source, std::vector<std::string>& fi
   facts.pipeline = source.pipeline(scene);
   read_reference(source, facts);
   facts.files = read.paths();
+  std::erase(facts.files, facts.pipeline.light_program.file);  // the window loads it by itself
   facts.lights = scene.lights;
   facts.clear = scene.clear;
   facts.fps = scene.timeline.fps;

@@ -33,6 +33,8 @@ constexpr ScriptCommand kCommands[] = {
     {"time", "SECONDS", "shows another time"},
     {"play", "", "lets the time pass"},
     {"pause", "", "stops it"},
+    {"model", "MODEL", "draws by a light model: one that ships, the file of --light-shader, or none"},
+    {"light-parameter", "NAME=VALUE", "gives a parameter of the light model another value"},
     {"light", "INDEX SWITCH", "turns a light on or off"},
     {"light-color", "INDEX R G B", "gives a light another colour"},
     {"light-intensity", "INDEX NUMBER", "multiplies a light's colour"},

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "scenes/light_models/light_models.h"
 #include "scenes/pipeline/presets.h"
 #include "view/saved_files.h"
 
@@ -28,6 +29,10 @@ Session::Session(SceneSource source, OpenedScene opened, const Execution& execut
       maker_(std::move(opened.scene), execution, std::move(news)) {
   state_.pipeline = facts_.pipeline;
   watch_.watch(facts_.files);
+  if (const LightProgram& program = facts_.pipeline.light_program; program.used()) {
+    if (!names_shipped_model(program.file)) model_watch_.watch({model_file_ = program.file});
+    use(ready_model(program));
+  }
   changed();
 }
 
@@ -45,6 +50,8 @@ void Session::set_preset(std::string_view name) {
   Pipeline pipeline = *preset_pipeline(name);
   pipeline.width = state_.pipeline.width, pipeline.height = state_.pipeline.height;
   pipeline.view = state_.pipeline.view;
+  pipeline.light_program = state_.pipeline.light_program;
+  if (pipeline.light_program.used()) pipeline.light_volumes = state_.pipeline.light_volumes;
   set_pipeline(pipeline);
 }
 
@@ -55,6 +62,7 @@ void Session::set_pipeline(const Pipeline& pipeline) {
 }
 
 void Session::set_exposure(double stops) {
+  if (state_.pipeline.light_program.used()) return tell("a light model has no exposure; it may have parameters");
   state_.exposure = std::clamp(stops, -kMostStops, kMostStops);
   changed();
 }
@@ -146,7 +154,7 @@ void Session::act(Action action) {
     case Action::look_at_pixel:
       return look_at_pixel();
     case Action::play:
-      if (!facts_.moves) return tell("nothing moves in this scene");
+      if (!has_time()) return tell("nothing moves in this scene");
       return play(!plays_);
     case Action::step_back:
       return set_time(state_.time - 1.0 / facts_.fps);
@@ -195,6 +203,8 @@ void Session::act_on_desk(Action action) {
       return toggle(Panel::pixel);
     case Action::statistics_panel:
       return toggle(Panel::statistics);
+    case Action::model_panel:
+      return toggle(Panel::model);
     case Action::hide_panels:
       desk_.hidden = !desk_.hidden;
       return;
@@ -215,14 +225,16 @@ void Session::act_on_desk(Action action) {
   }
 }
 
-bool Session::moves() const { return (plays_ && facts_.moves) || (controls_ && state_.camera && controls_->flies()); }
+double Session::last_time() const { return facts_.moves ? facts_.last_time : kLongestTime; }
+
+bool Session::moves() const { return (plays_ && has_time()) || (controls_ && state_.camera && controls_->flies()); }
 
 void Session::pass(const CameraInput& input, double seconds) {
   clock_ += seconds;
   bool moved = false;
-  if (plays_ && facts_.moves) {
+  if (plays_ && has_time()) {
     state_.time += seconds;
-    if (state_.time > facts_.last_time) state_.time = 0.0;
+    if (state_.time > last_time()) state_.time = 0.0;
     moved = true;
   }
   if (!input.rests() || (controls_ && state_.camera && controls_->flies())) {
@@ -249,6 +261,7 @@ void Session::watch_files() {
   if (clock_ < next_look_) return;
   next_look_ = clock_ + kLookSeconds;
   if (watch_.changed(SourceWatch::Clock::now())) reload();
+  if (model_watch_.changed(SourceWatch::Clock::now())) reload_model();
 }
 
 void Session::reload() {
@@ -270,12 +283,13 @@ void Session::reload() {
 void Session::take_over(SceneFacts facts) {
   Pipeline base = facts.pipeline;
   base.width = base_pipeline_.width, base.height = base_pipeline_.height;
+  base.light_program = base_pipeline_.light_program;              // which is loaded by itself
   if (state_.pipeline == base_pipeline_) state_.pipeline = base;  // the user has not changed it
   base_pipeline_ = base;
   std::erase_if(state_.changes, [&](const LightChange& change) { return change.light >= facts.lights.size(); });
   if (desk_.selected_light && *desk_.selected_light >= facts.lights.size()) desk_.selected_light.reset();
   facts_ = std::move(facts);
-  plays_ = plays_ && facts_.moves;
+  plays_ = plays_ && has_time();
   card_.reset();
   watch_.watch(facts_.files);
   changed();

@@ -12,14 +12,15 @@
 #include "view/frame_maker.h"
 #include "view/frame_times.h"
 #include "view/keys.h"
+#include "view/light_model.h"
 #include "view/pixel_card.h"
 #include "view/scene_source.h"
 #include "view/source_watch.h"
 
 namespace trueshade::viewer {
 
-enum class Panel : uint8_t { none, picture, lights, pixel, statistics };
-inline constexpr std::string_view kPanelNames[] = {"none", "picture", "lights", "pixel", "statistics"};
+enum class Panel : uint8_t { none, picture, lights, pixel, statistics, model };
+inline constexpr std::string_view kPanelNames[] = {"none", "picture", "lights", "pixel", "statistics", "model"};
 
 inline constexpr double kMostStops = 16.0;  ///< of exposure, either way
 
@@ -48,6 +49,9 @@ class Session {
   void set_preset(std::string_view name);
   void set_pipeline(const Pipeline& pipeline);  ///< any values but the size; Error where they are not valid
   void set_exposure(double stops);
+  /// Draws by a light model that ships, by the file that was given, or by the preset's formula: an empty name.
+  void set_model(const std::string& name);
+  void set_parameter(const std::string& name, const std::vector<float>& value);  ///< of the light model
   void set_size(int width, int height);
   void set_time(double seconds);
   void set_camera(const Camera& camera);
@@ -73,9 +77,15 @@ class Session {
 
   const SceneFacts& facts() const { return facts_; }
   const ViewState& state() const { return state_; }
+  bool has_time() const { return facts_.moves || model_reads_time_; }  ///< whether the picture changes with it
+  double last_time() const;                                            ///< seconds, where it begins anew
   bool plays() const { return plays_; }
   Desk& desk() { return desk_; }
   const std::optional<PixelCard>& card() const { return card_; }
+  const std::string& model_file() const { return model_file_; }  ///< of --light-shader; empty: none was given
+  const std::vector<ModelParameter>& parameters() const { return parameters_; }
+  const std::optional<BrokenModel>& broken_model() const { return broken_model_; }  ///< as that file is now
+  uint64_t model_revision() const { return model_revision_; }  ///< another number when the last two may have changed
   const LightChange* change_of(uint32_t light) const;
   double speed() const { return controls().speed(); }
   double field_of_view() const { return controls().field_of_view(); }
@@ -97,6 +107,9 @@ class Session {
   CameraControls& take_camera();
   void receive();
   void watch_files();
+  void use(ReadyModel model);
+  void reload_model();
+  void take_model(ReadyModel model);
   std::string written(const std::function<std::string()>& write);
   void take_over(SceneFacts facts);
 
@@ -111,7 +124,12 @@ class Session {
   std::optional<Notice> notice_;
   std::vector<std::string> problems_;
   std::optional<Error> failed_save_;
-  SourceWatch watch_;
+  std::string model_file_;
+  std::vector<ModelParameter> parameters_;
+  std::optional<BrokenModel> broken_model_;
+  uint64_t model_revision_ = 0;
+  bool model_reads_time_ = false;
+  SourceWatch watch_, model_watch_;
   double clock_ = 0.0, next_look_ = 0.0;
   FrameMaker maker_;
 };

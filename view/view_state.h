@@ -20,7 +20,7 @@ struct ViewState {
 };
 
 /// The pipeline that the picture is drawn by. The exposure multiplies the colour of every light
-/// (LightModel::damping), so that it is part of what is saved and hashed.
+/// (LightModel::damping), so that it is part of what is saved and hashed; light programs have none.
 Pipeline drawn_pipeline(const ViewState& state);
 
 }  // namespace trueshade::viewer

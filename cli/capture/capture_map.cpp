@@ -11,10 +11,11 @@ namespace {
 
 constexpr uint64_t kMostMapBytes = 1 << 20;
 
-constexpr PlaneChannels kCapturedPlanes[] = {{"color", 3, 4},       {"depth", 1, 1},      {"position", 3, 3},
-                                             {"normal", 3, 3},      {"albedo", 3, 4},     {"specular", 3, 4},
-                                             {"emission", 3, 4},    {"uv", 2, 2},         {"id.object", 1, 1},
-                                             {"id.material", 1, 1}, {"light.count", 1, 1}};
+constexpr PlaneChannels kCapturedPlanes[] = {
+    {"color", 3, 4},       {"depth", 1, 1},    {"position", 3, 3},  {"normal", 3, 3},    {"albedo", 3, 4},
+    {"specular", 3, 4},    {"emission", 3, 4}, {"uv", 2, 2},        {"id.object", 1, 1}, {"id.material", 1, 1},
+    {"light.count", 1, 1}, {"metallic", 1, 1}, {"roughness", 1, 1}, {"occlusion", 1, 1}, {"uv1", 2, 2},
+    {"tangent", 3, 4},     {"user0", 1, 4},    {"user1", 1, 4},     {"user2", 1, 4},     {"user3", 1, 4}};
 
 /// Which planes a word may be said of.
 enum Planes : uint8_t { kNormals = 1, kPositions = 2, kDepths = 4, kEvery = 8 };

@@ -199,6 +199,13 @@ Image without_alpha(const std::string& where, const std::string& name, const Ima
   return image;
 }
 
+/// Planes that light programs alone read, which no pipeline has a format for.
+bool is_of_programs(std::string_view plane) {
+  for (const std::string_view name : {"metallic", "roughness", "occlusion", "uv1", "tangent"})
+    if (plane == name) return true;
+  return plane.starts_with("user");
+}
+
 }  // namespace
 
 void store_as(const Pipeline& asked, oracle::Capture& capture) {
@@ -225,6 +232,7 @@ void store_as(const Pipeline& asked, oracle::Capture& capture) {
   for (NamedImage& plane : capture.planes) {
     const oracle::DecodedPlane* const decoded = capture.decoding(plane.name);
     if (decoded != nullptr && decoded->is_unpacked()) continue;
+    if (is_of_programs(plane.name)) continue;  // which read what the file holds
     const Format wanted = stored_format(pipeline, plane.name);
     const bool extra_alpha = info(plane.image.format).channels == 4 && info(wanted).channels == 3;
     if (extra_alpha) plane.image = without_alpha(capture.file_of(plane.name), plane.name, plane.image, info(wanted));

@@ -9,27 +9,11 @@
 namespace trueshade::oracle {
 namespace {
 
-/// The names outside functions that shaders of this folder have before a light program's text.
-constexpr const char* kOwnNames =
-    "float world_position, world_normal, color, base, texcoord, along_u, along_v, ids, alpha_cutoff, double_sided, "
-    "normal_scale, materials, lights, light_count, eye, view_axis, clip_from_world, picture_place, position_plane, "
-    "normal_plane, albedo_plane, uv_plane, specular_plane, emission_plane, object_plane, material_plane, depth_plane, "
-    "world_from_clip, ndc_from_window, ndc_origin, depth_to_ndc, target, color_map, specular_map, normal_map, "
-    "metallic_roughness_map, emission_map, occlusion_map, color_texcoord, specular_texcoord, normal_texcoord, "
-    "metallic_roughness_texcoord, emission_texcoord, occlusion_texcoord;\n"
-    "float unit_normal(vec3 n) { return 0.0; }\nfloat bent_normal(vec3 n, vec3 t) { return 0.0; }\n"
-    "float texel_of(int i) { return 0.0; }\n"
-    "Light ts_light_of(int i) { Light l; return l; }\nView ts_view() { View v; return v; }\n"
-    "vec3 ts_added(Surface s, Light l, View v) { return vec3(0); }\n"
-    "bool ts_reaches(Surface s, Light l, View v) { return false; }\n"
-    "vec3 ts_start(Surface s, View v) { return vec3(0); }\n"
-    "vec4 ts_finish(Surface s, View v, vec3 sum) { return vec4(0); }\n"
-    "void ts_keep() {}\nvoid ts_fresh() {}\n";
-
 LightText made(const LightProgram& program) {
   LightText out;
-  out.outline = programs::light_outline(program.file, program.text, kOwnNames);
+  out.outline = programs::light_outline(program.file, program.text);
   out.reads = program_reads(program.file, out.outline.inputs);
+  require_fields(program.file, out.reads.captured);
   return out;
 }
 

@@ -13,6 +13,8 @@ constexpr std::string_view kUserText =
 
 constexpr const char* kUniforms = R"(uniform vec3 view_axis;
 uniform vec4 clip_from_world[4];  // rows
+uniform vec4 view_from_world[4], clip_from_view[4];
+uniform vec3 moment;              // seconds; the number of the frame, divided by 65536, and the rest
 uniform vec4 picture_place;       // x, y, width, height in the window
 uniform samplerBuffer lights;     // seven texels a light
 uniform int light_count;
@@ -49,16 +51,18 @@ Light ts_light_of(int i) {
   return l;
 }
 
+mat4 ts_matrix_of(vec4 rows[4]) { return transpose(mat4(rows[0], rows[1], rows[2], rows[3])); }
+
 View ts_view() {
   View v;
   v.eye = eye;
   v.axis = -view_axis;
-  v.view = v.projection = mat4(0.0);
-  v.view_projection =
-      transpose(mat4(clip_from_world[0], clip_from_world[1], clip_from_world[2], clip_from_world[3]));
+  v.view = ts_matrix_of(view_from_world);
+  v.projection = ts_matrix_of(clip_from_view);
+  v.view_projection = ts_matrix_of(clip_from_world);
   v.size = picture_place.zw;
-  v.time = 0.0;
-  v.frame = 0u;
+  v.time = moment.x;
+  v.frame = uint(moment.y) * 65536u + uint(moment.z);
   return v;
 }
 )";

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "oracle/matrices.h"
@@ -40,6 +41,9 @@ constexpr Row<SurfaceField> kSurface[] = {{"position", [](S s, size_t c) { retur
                                           {"occlusion", [](S s, size_t) { return interval_of(s.ambient_share); }},
                                           {"emission", [](S s, size_t c) { return interval_of(s.emission[c]); }},
                                           {"uv", [](S s, size_t c) { return interval_of(s.uv[c]); }},
+                                          {"uv1", [](S s, size_t c) { return interval_of(s.uv1[c]); }},
+                                          {"tangent", [](S s, size_t c) { return interval_of(s.tangent[c]); }},
+                                          {"user", [](S s, size_t c) { return interval_of(s.user[c]); }},
                                           {"object", [](S s, size_t) { return Interval::of(s.object); }},
                                           {"material", [](S s, size_t) { return Interval::of(s.material); }},
                                           {"pixel_x", [](S s, size_t) { return Interval::of(s.pixel[0]); }},
@@ -95,7 +99,12 @@ size_t component_of(std::string_view name) {
   return at == std::string_view::npos || name.size() < 2 || name[name.size() - 2] != '.' ? 0 : at;
 }
 
-SurfaceField surface_field(std::string_view name) { return found(kSurface, name); }
+SurfaceField surface_field(std::string_view name) {
+  SurfaceField field = found(kSurface, name);
+  constexpr std::string_view kUser = "surface.user[";
+  if (name.starts_with(kUser)) field.component += 4 * size_t(name[kUser.size()] - '0');
+  return field;
+}
 LightField light_field(std::string_view name) { return found(kLight, name); }
 
 Interval frame_field(std::string_view name, const Scene& scene, const Pipeline& pipeline) {
@@ -107,12 +116,20 @@ Interval frame_field(std::string_view name, const Scene& scene, const Pipeline& 
     throw Error(ErrorKind::usage, pipeline.light_program.file, "nothing gives " + std::string(name),
                 "--light-parameter NAME=VALUE");
   }
+  const auto element = [&](const Matrix4& matrix) {
+    return Interval::rounded_once(matrix[4 * size_t(name[name.find('[') + 1] - '0') + c]);
+  };
+  check_camera(scene.camera, pipeline.light_program.file, std::vector{std::string(name)});
+  if (field == "view") return element(view_matrix(scene.camera));
+  if (field == "projection")
+    return element(lens_matrix(scene.camera, pipeline.geometry, pipeline.width, pipeline.height));
   const Matrix4 clip = projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height);
   if (field == "eye") return Interval::of(double(scene.camera.eye[int(c)]));
   if (field == "axis") return Interval::rounded_once(-view_axis(clip)[c]);
   if (field == "size") return Interval::of(c == 0 ? pipeline.width : pipeline.height);
-  if (field == "time" || field == "frame") return Interval::of(0);
-  if (field == "view_projection") return Interval::rounded_once(clip[4 * size_t(name[name.find('[') + 1] - '0') + c]);
+  if (field == "time") return Interval::of(double(float(scene.time)));
+  if (field == "frame") return Interval::of(double(frame_at(scene)));
+  if (field == "view_projection") return element(clip);
   throw Error(ErrorKind::bad_input, pipeline.light_program.file, "nothing gives " + std::string(name), "another field");
 }
 

@@ -20,6 +20,9 @@ struct ShadedSurface {
   double shininess = 0, shininess_error = 0;  ///< an integer; any one within the error, where a map leaves several
   Bounded ambient_share{1, 0};                ///< what arrives of ambient light, where the model reads emission
   std::array<Bounded, 2> uv{};                ///< the rest where a light program reads it
+  std::array<Bounded, 2> uv1{};
+  std::array<Bounded, 4> tangent{};
+  std::array<Bounded, 16> user{};             ///< four vectors
   uint32_t object = 0, material = 0;          ///< from 1 on
   std::array<int, 2> pixel{};                 ///< column and row from the lower left
 };

@@ -7,6 +7,8 @@
 #include "judge/legal/surface.h"
 #include "oracle/exact_coverage.h"
 #include "oracle/scalar_renderer.h"
+#include "programs/front/light_program.h"
+#include "scenes/pipeline/program_inputs.h"
 
 namespace trueshade::oracle {
 
@@ -19,6 +21,11 @@ bool emits(const Scene& scene, const LightModel& model) {
          });
 }
 
+/// Whether metallic and roughness are planes of their own, which light programs read.
+bool has_metals(const Capture& capture) {
+  return capture.plane("metallic") != nullptr && capture.plane("roughness") != nullptr;
+}
+
 }  // namespace
 
 CapturedSurface::CapturedSurface(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
@@ -28,7 +35,8 @@ CapturedSurface::CapturedSurface(const Scene& scene, const Pipeline& pipeline, c
       normal_(required(capture, "normal")),
       albedo_(required(capture, "albedo")),
       object_(plane_of(capture, pipeline, "id.object")),
-      specular_(reads_specular_plane(pipeline.light_model) ? required(capture, "specular") : PlaneView{}),
+      specular_(reads_specular_plane(pipeline.light_model) && !has_metals(capture) ? required(capture, "specular")
+                                                                                   : PlaneView{}),
       emission_(emits(scene, pipeline.light_model) ? required(capture, "emission") : PlaneView{}),
       viewport_(resolved_viewport(pipeline.geometry, pipeline.width, pipeline.height)) {
   if (pipeline.gbuffer.position_from_depth) {
@@ -38,12 +46,7 @@ CapturedSurface::CapturedSurface(const Scene& scene, const Pipeline& pipeline, c
     position_ = required(capture, "position");
     depth_ = plane_of(capture, pipeline, "depth");
   }
-  if (pipeline.light_program.used()) {
-    uv_ = plane_of(capture, pipeline, "uv"), material_ = plane_of(capture, pipeline, "id.material");
-    const bool unlit =
-        std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.unlit; });
-    if (unlit) material_ = required(capture, "id.material");
-  }
+  if (pipeline.light_program.used()) find_fields(scene, capture);
   const bool shaded = std::any_of(scene.materials.begin(), scene.materials.end(),
                                   [](const Material& m) { return m.occlusion_map.used(); });
   if (emission_ && shaded && info(pipeline.gbuffer.emission).channels > 3 && emission_.channels < 4)
@@ -51,6 +54,45 @@ CapturedSurface::CapturedSurface(const Scene& scene, const Pipeline& pipeline, c
                 "capture it as emission.A");
   if (!object_ && !depth_)
     throw Error(ErrorKind::bad_input, capture.name, "does not say where a surface is", "capture id.object or depth");
+}
+
+void CapturedSurface::find_fields(const Scene& scene, const Capture& capture) {
+  const LightProgram& given = pipeline_.light_program;
+  const std::shared_ptr<const programs::Program> program = programs::kept_program(given.file, given.text);
+  std::vector<std::string> inputs;
+  for (const programs::ProgramInput& input : program->inputs) inputs.push_back(input.name);
+  const ProgramReads reads = program_reads(given.file, inputs);
+  const auto plane = [&](const std::string& name) { return plane_of(capture, pipeline_, name); };
+  const bool unlit =
+      std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.unlit; });
+  uv_ = reads.uv ? required(capture, "uv") : PlaneView{};
+  material_ = unlit || reads.material ? required(capture, "id.material") : PlaneView{};
+  if (reads.object) required(capture, "id.object");
+  metallic_ = plane("metallic"), roughness_ = plane("roughness"), occlusion_ = plane("occlusion");
+  uv1_ = plane("uv1"), tangent_ = plane("tangent");
+  CapturedFields there{bool(uv1_), bool(tangent_), {}};
+  for (size_t i = 0; i < user_.size(); ++i) {
+    user_[i] = plane("user" + std::to_string(i));
+    there.user[i] = bool(user_[i]);
+  }
+  require_fields(given.file, reads.captured, there);
+}
+
+void CapturedSurface::fetch_fields(int x, int y, ShadedSurface& s) const {
+  const auto channel = [&](const PlaneView& view, int c, double absent) {
+    return view && c < view.channels ? fetched(view, x, y, c) : Bounded{absent, 0};
+  };
+  if (metallic_) s.specular[0] = channel(metallic_, 0, 0);
+  if (roughness_) s.specular[1] = channel(roughness_, 0, 0);
+  if (occlusion_) s.ambient_share = channel(occlusion_, 0, 1);
+  for (int c = 0; c < 2; ++c) s.uv[size_t(c)] = channel(uv_, c, 0), s.uv1[size_t(c)] = channel(uv1_, c, 0);
+  for (int c = 0; c < 4; ++c) {
+    s.tangent[size_t(c)] = channel(tangent_, c, 1);
+    for (int k = 0; k < 4; ++k) s.user[size_t(4 * k + c)] = channel(user_[size_t(k)], c, c < 3 ? 0 : 1);
+  }
+  if (object_) s.object = uint32_t(object_.stored(x, y, 0));
+  if (material_) s.material = uint32_t(material_.stored(x, y, 0));
+  s.pixel = {x, pipeline_.height - 1 - y};
 }
 
 PlaneView CapturedSurface::required(const Capture& capture, std::string_view name) const {
@@ -92,11 +134,7 @@ ShadedSurface CapturedSurface::at(int x, int y) const {
   if (specular_) s.shininess = specular_.stored(x, y, 3);
   if (emission_ && emission_.channels > 3) s.ambient_share = fetched(emission_, x, y, 3);
   if (!position_) s.position = position_from_depth(x, y);
-  if (!pipeline_.light_program.used()) return s;
-  for (int k = 0; k < 2 && uv_; ++k) s.uv[size_t(k)] = fetched(uv_, x, y, k);
-  if (object_) s.object = uint32_t(object_.stored(x, y, 0));
-  if (material_) s.material = uint32_t(material_.stored(x, y, 0));
-  s.pixel = {x, pipeline_.height - 1 - y};
+  if (pipeline_.light_program.used()) fetch_fields(x, y, s);
   return s;
 }
 

@@ -26,13 +26,17 @@ class CapturedSurface {
  private:
   PlaneView required(const Capture& capture, std::string_view name) const;
   Bounded fetched(const PlaneView& view, int x, int y, int channel) const;
+  void find_fields(const Scene& scene, const Capture& capture);
+  void fetch_fields(int x, int y, ShadedSurface& surface) const;
   void invert(const Scene& scene);
   Bounded3 position_from_depth(int x, int y) const;
 
   const Pipeline pipeline_;
   const Profile profile_;
   PlaneView normal_, albedo_, object_, specular_, emission_, position_, depth_;
-  PlaneView uv_, material_;  ///< for light programs
+  // For light programs.
+  PlaneView uv_, material_, metallic_, roughness_, occlusion_, uv1_, tangent_;
+  std::array<PlaneView, 4> user_;
   Viewport viewport_;
   Matrix4 world_from_clip_{};
 };

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "programs/front/driver_names.h"
 #include "programs/front/glsl_compiler.h"
 #include "programs/front/light_program.h"
 #include "programs/front/spirv_module.h"
@@ -32,8 +33,7 @@ layout(std430, set = 0, binding = 4) buffer TsResult { vec3 light; uint reaches;
 /// The functions that a text defines with the right signature and result, told by the compiler.
 class Definitions {
  public:
-  Definitions(const std::string& file, const std::string& text)
-      : module_(spirv_module(spirv_of_glsl(file, text, kSignatures, true))) {
+  Definitions(const std::string& file, const std::string& text) : module_(spirv_module(words_of(file, text))) {
     for (const auto& [id, function] : module_.functions) result_[module_.name(id)] = function.result_type;
   }
 
@@ -47,6 +47,16 @@ class Definitions {
   }
 
  private:
+  /// Of a text that goes with a driver's names, so that what one command draws each other takes.
+  static std::vector<uint32_t> words_of(const std::string& file, const std::string& text) {
+    try {
+      return spirv_of_glsl(file, text, kSignatures, true, kDriverNames);
+    } catch (const Error&) {
+      spirv_of_glsl(file, text, kSignatures, true);  // what is wrong without them is said
+      throw;
+    }
+  }
+
   SpirvModule module_;
   std::map<std::string, uint32_t> result_;  // by the name with the types of the parameters
 };

@@ -65,6 +65,13 @@ int column_of(const std::string& text, const GlslError& error) {
   return at == std::string_view::npos || line.find(quoted, at + 1) != std::string_view::npos ? 0 : int(at) + 1;
 }
 
+/// What an editor may have put before the text, which no compiler takes for it.
+void refuse_byte_order_mark(const std::string& file, std::string_view text) {
+  for (const std::string_view mark : {"\xEF\xBB\xBF", "\xFF\xFE", "\xFE\xFF"})
+    if (text.starts_with(mark))
+      throw Error(ErrorKind::bad_input, file + ":1:1", "begins with a byte order mark", "save it as UTF-8 without one");
+}
+
 /// `number`: of the user's text among those that were compiled.
 [[noreturn]] void throw_first(const std::string& file, const std::string& text, int number, const std::string& log) {
   for (size_t first = 0; first < log.size();) {
@@ -80,6 +87,9 @@ int column_of(const std::string& text, const GlslError& error) {
     if (error->text == number + 1)
       throw Error(ErrorKind::bad_input, where, "clashes with the entry point: " + error->message,
                   "leave no brace or comment open, and define neither main nor names with ts_");
+    if (error->message.starts_with("'#version'"))
+      throw Error(ErrorKind::bad_input, where, "states a #version, and stands behind a text that has stated it",
+                  "leave the line out: it is GLSL 4.60");
     throw Error(ErrorKind::bad_input, where, error->message,
                 number == 0 ? "correct the GLSL" : "leave alone what a driver's shader has before it");
   }
@@ -90,6 +100,7 @@ int column_of(const std::string& text, const GlslError& error) {
 
 std::vector<uint32_t> spirv_of_glsl(const std::string& file, const std::string& text, const std::string& tail,
                                     bool keep_uncalled, const std::string& before) {
+  refuse_byte_order_mark(file, text);
   static const GlslangProcess process;
   constexpr int kVersion = 460;
   auto messages = EShMessages(EShMsgSpvRules | EShMsgVulkanRules);

@@ -188,7 +188,7 @@ bool is_spirv(const std::string& text) {
 
 std::string_view light_interface() { return kLightInterface; }
 
-LightOutline light_outline(const std::string& file, const std::string& text, const std::string& before) {
+LightOutline light_outline(const std::string& file, const std::string& text) {
   if (is_spirv(text))
     throw Error(ErrorKind::usage, file, "is SPIR-V, and a driver's shader is made of text", "give its GLSL");
   LightOutline out;
@@ -197,7 +197,6 @@ LightOutline light_outline(const std::string& file, const std::string& text, con
   out.defines_start = program.defines_start;
   out.defines_finish = program.defines_finish;
   for (const ProgramInput& input : program.inputs) out.inputs.push_back(input.name);
-  spirv_of_glsl(file, text, "layout(local_size_x = 1) in;\nvoid main() {}\n", true, before);  // or its names clash
   try {
     const SpirvModule module = spirv_module(compiled_light(file, text).words);
     for (const size_t i : module.globals)

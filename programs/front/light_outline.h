@@ -34,8 +34,7 @@ struct LightOutline {
 /// programs/light_interface.glsl, which stands before the text.
 std::string_view light_interface();
 
-/// `before`: what the shader declares before the text, whose names the text must leave alone. Error as of
-/// program_from_glsl(); Error(usage) where the text is SPIR-V.
-LightOutline light_outline(const std::string& file, const std::string& text, const std::string& before);
+/// Error as of program_from_glsl(); Error(usage) where the text is SPIR-V.
+LightOutline light_outline(const std::string& file, const std::string& text);
 
 }  // namespace trueshade::programs

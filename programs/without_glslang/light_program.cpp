@@ -18,6 +18,6 @@ Program program_from_glsl(const std::string& file, const std::string&, const Pro
 Program program_from_spirv(const std::string& file, std::vector<uint32_t>, const ProgramLimits&) { refuse(file); }
 std::shared_ptr<const Program> kept_program(const std::string& file, const std::string&) { refuse(file); }
 std::string_view light_interface() { return {}; }
-LightOutline light_outline(const std::string& file, const std::string&, const std::string&) { refuse(file); }
+LightOutline light_outline(const std::string& file, const std::string&) { refuse(file); }
 
 }  // namespace trueshade::programs

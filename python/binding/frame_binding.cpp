@@ -102,6 +102,15 @@ GivenSurfaces surfaces_of(const std::map<std::string, Image>& images) {
     if (name == "albedo") given.albedo = &image;
     if (name == "specular") given.specular = &image;
     if (name == "emission") given.emission = &image;
+    if (name == "metallic") given.metallic = &image;
+    if (name == "roughness") given.roughness = &image;
+    if (name == "occlusion") given.occlusion = &image;
+    if (name == "id.material") given.material = &image;
+    if (name == "uv") given.uv = &image;
+    if (name == "uv1") given.uv1 = &image;
+    if (name == "tangent") given.tangent = &image;
+    for (size_t i = 0; i < 4; ++i)
+      if (name == "user" + std::to_string(i)) given.user[i] = &image;
   }
   if (given.normal == nullptr)
     throw bad_argument("planes", "there is no plane normal", "give normal and albedo, and position or depth");
@@ -210,8 +219,8 @@ void add_frame(py::module_& module) {
       .def("__repr__", &described);
   module.def("render", &render, doc_of("render"), "scene"_a.none(false), "pipeline"_a = py::none(), py::kw_only(),
              "planes"_a = py::tuple(), "threads"_a = 0, "simd"_a = "best");
-  module.def("shade", &shade, doc_of("shade"), "scene"_a.none(false), "planes"_a, "pipeline"_a = py::none(), py::kw_only(),
-             "threads"_a = 0, "simd"_a = "best");
+  module.def("shade", &shade, doc_of("shade"), "scene"_a.none(false), "planes"_a, "pipeline"_a = py::none(),
+             py::kw_only(), "threads"_a = 0, "simd"_a = "best");
   module.def(
       "image_hash",
       [](const py::object& image, const std::string& format) { return hash_of(image_of(image, "image", format)); },

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "raster/surfaces/fast/visible_triangles.h"  // fast path
@@ -30,6 +31,12 @@ enum MaterialPlane : int {
 /// Whether the uv planes of a tile are filled where no map reads texture coordinates.
 enum class UvPlanes : uint8_t { omitted, filled };
 
+/// What only a capture has of a surface: more texture coordinates, the tangent, four vectors of the user's.
+enum CapturedPlane : int { kUv1 = 0, kTangent = 2, kUser = 6, kCapturedPlanes = kUser + 4 * 4 };
+struct CapturedTile {
+  alignas(64) float plane[kCapturedPlanes][kMaxTilePixels];
+};
+
 /// The G-buffer of one tile, in tile_index() order: values as they read back from the stored formats.
 struct SurfaceTile {
   alignas(64) int32_t covered[kMaxTilePixels];  ///< -1 with a surface, 0 without; the others mean nothing there
@@ -37,6 +44,7 @@ struct SurfaceTile {
   /// emission RGB and the share of ambient light
   alignas(64) float plane[kPlanes][kMaxTilePixels];
   alignas(64) uint32_t object[kMaxTilePixels], material[kMaxTilePixels];  ///< index + 1
+  std::unique_ptr<CapturedTile> captured;  ///< null where nothing reads it
   int covered_pixels;
   int x, y;  ///< of the lower left pixel in the picture, y up
 };

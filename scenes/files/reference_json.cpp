@@ -84,7 +84,7 @@ Scene scene_of_reference(const SceneReference& reference, const json::Node& root
     set_time(scene, *reference.time);
     const double fps = scene.timeline.fps;
     scene.timeline = Timeline();
-    scene.timeline.fps = fps;
+    scene.timeline.fps = fps, scene.timeline.stands_at = scene.time;
   }
   return scene;
 }

@@ -2,10 +2,12 @@
 //   f = albedo ((1 - sheen) / pi + sheen D V),   D = (2 + 1/r) sin^(1/r) / (2 pi),  sin of the angle between N and H
 //   V = 1 / (4 (N.L)(N.V) (1 + L(N.L) + L(N.V))), at most 1 as in KHR_materials_sheen
 //   L(x) = exp(l(x)) where x < 0.5, else exp(2 l(0.5) - l(1 - x)),   l(x) = a / (1 + b x^c) + d x + e
-// a to e lie between the paper's for r = 0 and 1, by (1 - r)^2. r is roughness, at least 0.07; the parameter sheen,
-// 0 to 1, is the share of fibres that stand up. An ambient light adds color * albedo.
+// a to e lie between the paper's for r = 0 and 1, by (1 - r)^2. r is roughness, at least 0.07; the parameter sheen
+// is the share of fibres that stand up. An ambient light adds color * albedo.
 // Reads position, normal, albedo, roughness; lights of all four types; the eye.
-layout(std140) uniform Parameters { float sheen; };
+layout(std140) uniform Parameters {
+  float sheen;  // 0 to 1
+};
 const float pi = 3.14159265;
 
 // What arrives of a light, and from where: the inverse square under a window, and the cone, of KHR_lights_punctual.

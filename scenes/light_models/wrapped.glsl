@@ -1,8 +1,10 @@
 // Diffuse light that wraps around, skin and wax: Green, Real-Time Approximations to Subsurface Scattering (2004), 16.2
 //   albedo / pi * max(0, (N.L + wrap) / (1 + wrap)), in place of Lambert's N.L; the source is in GPU Gems
-// The parameter wrap, 0 to 1: 0 is Lambert, 1 lights up to the far side. An ambient light adds color * albedo.
+// The parameter wrap: 0 is Lambert, 1 lights up to the far side. An ambient light adds color * albedo.
 // Reads position, normal, albedo; lights of all four types.
-layout(std140) uniform Parameters { float wrap; };
+layout(std140) uniform Parameters {
+  float wrap;  // 0 to 1
+};
 const float pi = 3.14159265;
 
 // What arrives of a light, and from where: the inverse square under a window, and the cone, of KHR_lights_punctual.

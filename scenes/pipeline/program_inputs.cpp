@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "scenes/json/json_value.h"
+#include "scenes/pipeline/parameter_ranges.h"
 
 namespace trueshade {
 namespace {
@@ -16,6 +18,19 @@ std::optional<std::string_view> behind(const ProgramParameter& given, std::strin
   return rest;
 }
 
+void check_ranges(const LightProgram& program) {
+  if (program.parameters.empty()) return;
+  const std::vector<DeclaredParameter> declared = declared_parameters(program.text);
+  for (const ProgramParameter& given : program.parameters)
+    if (const ParameterRange* const range = range_of(declared, given.name))
+      for (const float value : given.value)
+        if (!range->holds(double(value)))
+          throw Error(ErrorKind::usage, "--light-parameter",
+                      "'" + given.name + "' is " + json::number_text(double(value)) + ", which " + program.file +
+                          " is not made for",
+                      range->text());
+}
+
 }  // namespace
 
 void require_summed_lights(const Pipeline& pipeline) {
@@ -25,12 +40,38 @@ void require_summed_lights(const Pipeline& pipeline) {
                 "deferred-loop or forward-loop");
 }
 
+namespace {
+
+/// Whether the input is a field that captures alone have.
+bool note_captured(const std::string& input, CapturedFields& fields) {
+  constexpr std::string_view kUser = "surface.user[";
+  const bool uv1 = input.starts_with("surface.uv1."), tangent = input.starts_with("surface.tangent.");
+  const bool user = input.starts_with(kUser);
+  fields.uv1 |= uv1, fields.tangent |= tangent;
+  if (user) fields.user[size_t(input[kUser.size()] - '0')] = true;
+  return uv1 || tangent || user;
+}
+
+}  // namespace
+
+void require_fields(const std::string& file, const CapturedFields& reads, const CapturedFields& there) {
+  const auto require = [&file](bool is_read, bool is_there, const std::string& field, const std::string& plane) {
+    if (is_read && !is_there)
+      throw Error(ErrorKind::bad_input, file, "reads surface." + field + ", which nothing fills here",
+                  "shade or validate of a capture, with --map " + plane + "=FILE.CHANNELS");
+  };
+  require(reads.uv1, there.uv1, "uv1", "uv1");
+  require(reads.tangent, there.tangent, "tangent", "tangent");
+  for (size_t i = 0; i < reads.user.size(); ++i)
+    require(reads.user[i], there.user[i], "user[" + std::to_string(i) + "]", "user" + std::to_string(i));
+}
+
 ProgramReads program_reads(const std::string& file, std::span<const std::string> inputs) {
   ProgramReads reads;
   for (const std::string& name : inputs) {
-    for (const std::string_view absent : {"surface.uv1", "surface.tangent", "surface.user", "light.user"})
-      if (name.starts_with(absent))
-        throw Error(ErrorKind::bad_input, file, "reads " + name + ", which nothing fills yet", "another field");
+    if (name.starts_with("light.user"))
+      throw Error(ErrorKind::bad_input, file, "reads " + name + ", which nothing fills", "another field");
+    if (note_captured(name, reads.captured)) continue;
     const auto is = [&name](std::string_view field) { return name.starts_with(field); };
     reads.gloss = reads.gloss || is("surface.specular") || is("surface.shininess");
     reads.metals = reads.metals || is("surface.metallic") || is("surface.roughness");
@@ -59,6 +100,13 @@ Pipeline with_planes_of(const Pipeline& pipeline, const ProgramReads& reads) {
   return out;
 }
 
+std::string without_component(const std::string& name) {
+  const size_t end = name.size() - 2;
+  const bool is_component =
+      name.find('.') < end && name[end] == '.' && std::string_view("xyzw").find(name.back()) != std::string_view::npos;
+  return is_component ? name.substr(0, end) : name;
+}
+
 std::optional<float> parameter_value(std::string_view input, const LightProgram& program) {
   for (const ProgramParameter& given : program.parameters) {
     const std::optional<std::string_view> rest = behind(given, input);
@@ -70,6 +118,7 @@ std::optional<float> parameter_value(std::string_view input, const LightProgram&
 }
 
 void check_values(const LightProgram& program, std::span<const std::string> inputs) {
+  check_ranges(program);
   for (const ProgramParameter& given : program.parameters) {
     const auto is_same = [&](const ProgramParameter& p) { return p.name == given.name; };
     if (std::count_if(program.parameters.begin(), program.parameters.end(), is_same) > 1)
@@ -83,13 +132,18 @@ void check_values(const LightProgram& program, std::span<const std::string> inpu
     if (std::none_of(inputs.begin(), inputs.end(), [&](const std::string& input) { return behind(given, input); }))
       throw Error(ErrorKind::usage, "--light-parameter", program.file + " reads no parameter '" + given.name + "'",
                   "a member of its block Parameters");
-  for (const std::string& input : inputs) {
-    const bool parameter = input.starts_with("parameters.");
-    if (parameter ? !parameter_value(input, program)
-                  : input.starts_with("view.view[") || input.starts_with("view.projection["))
-      throw Error(ErrorKind::usage, program.file, "nothing gives " + input,
-                  parameter ? "--light-parameter NAME=VALUE" : "another field");
-  }
+  for (const std::string& input : inputs)
+    if (input.starts_with(kParameterBlock) && !parameter_value(input, program))
+      throw Error(ErrorKind::usage, program.file, "nothing gives " + input, "--light-parameter NAME=VALUE");
+}
+
+void check_camera(const Camera& camera, const std::string& file, std::span<const std::string> inputs) {
+  if (!camera.clip_from_world) return;
+  for (const std::string& input : inputs)
+    if (input.starts_with("view.view[") || input.starts_with("view.projection["))
+      throw Error(ErrorKind::bad_input, file,
+                  "reads " + without_component(input) + ", and the camera is one matrix, their product",
+                  "view_projection, or a camera with eye and target");
 }
 
 }  // namespace trueshade

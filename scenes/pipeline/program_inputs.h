@@ -1,17 +1,30 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "scenes/camera.h"
 #include "scenes/pipeline/pipeline.h"
 
 // What a pipeline makes of the inputs that a light program reads. Their names are those of
 // programs/light_interface.glsl, a scalar each: "surface.normal.x", "parameters.gain".
 namespace trueshade {
 
+/// What the names of parameters begin with among inputs.
+inline constexpr std::string_view kParameterBlock = "parameters.";
+
 /// Error(usage) where the pipeline has a light program and blends lights one by one.
 void require_summed_lights(const Pipeline& pipeline);
+
+/// Fields of a surface that captures alone have: planes that --map names.
+struct CapturedFields {
+  bool uv1 = false, tangent = false;
+  std::array<bool, 4> user{};
+  bool any() const { return uv1 || tangent || user[0] || user[1] || user[2] || user[3]; }
+  bool operator==(const CapturedFields&) const = default;
+};
 
 /// Which fields of a surface a light program reads, beside position, normal and albedo.
 struct ProgramReads {
@@ -20,21 +33,32 @@ struct ProgramReads {
   bool emission = false;  ///< emission, occlusion
   bool uv = false;
   bool object = false, material = false;
+  CapturedFields captured;
   bool operator==(const ProgramReads&) const = default;
 };
 
-/// Error(bad_input) for fields that nothing fills, and for pairs of fields that share a plane. `file` names the
-/// program.
+/// Error(bad_input) for fields of lights that nothing fills, and for pairs of fields that share a plane. `file` names
+/// the program.
 ProgramReads program_reads(const std::string& file, std::span<const std::string> inputs);
+
+/// Error(bad_input) where a program reads what `there` does not have.
+void require_fields(const std::string& file, const CapturedFields& reads, const CapturedFields& there = {});
 
 /// The same pipeline with the planes that its light program reads, and nothing of light_model that bounds a light or
 /// changes what a program is given.
 Pipeline with_planes_of(const Pipeline& pipeline, const ProgramReads& reads);
 
+/// "surface.normal.x" without its component; a scalar's name, "parameters.x", as it is.
+std::string without_component(const std::string& name);
+
+/// Error(bad_input) where the inputs have the view's or the projection's matrix alone, and the camera is their product.
+void check_camera(const Camera& camera, const std::string& file, std::span<const std::string> inputs);
+
 /// The value of an input of the block `Parameters`; nothing where none is given.
 std::optional<float> parameter_value(std::string_view input, const LightProgram& program);
 
-/// Error(usage) where an input has no value, as a parameter that is not given, or a parameter is no input.
+/// Error(usage) where an input has no value, as a parameter that is not given, a parameter is no input, or a value is
+/// outside the range that the program's text states.
 void check_values(const LightProgram& program, std::span<const std::string> inputs);
 
 }  // namespace trueshade

@@ -33,9 +33,11 @@ void set_place(const Light& light, int place, SurfaceTile& out) {
 CutLights cut_lights(const Scene& scene, const Pipeline& asked) {
   const FpScope fp;
   const Pipeline pipeline = with_planes_of_program(asked);
-  const ProgramFrame program(scene, pipeline);
+  const CapturedFields all{true, true, {true, true, true, true}};
+  const ProgramFrame program(scene, pipeline, Unlit::shows_albedo, all);
   const auto tile = std::make_unique<SurfaceTile>();
   *tile = {};
+  tile->captured = std::make_unique<CapturedTile>();  // of zeros
   const uint32_t* const pixels[2] = {tile->object, tile->object};
   programs::LaneValues surfaces(program.executable().at(programs::Rate::surface), programs::kBlockLanes);
   for (size_t i = 0; i < program.executable().at(programs::Rate::surface).inputs.size(); ++i)

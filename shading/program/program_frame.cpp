@@ -42,12 +42,20 @@ size_t element_of(std::string_view name) {
 
 uint32_t bits_of(float value) { return std::bit_cast<uint32_t>(value); }
 
-/// Clip space from the world, as the vertex shader has it before it is rounded.
-Matrix4 view_projection(const Camera& camera, const Pipeline& pipeline) {
+double aspect_of(const Pipeline& pipeline) {
   const Viewport& v = pipeline.geometry.viewport;
   const bool whole = v.width == 0 && v.height == 0;
-  const double aspect = whole ? double(pipeline.width) / pipeline.height : double(v.width) / v.height;
-  return clip_from_world(camera, aspect, clip_range(pipeline.geometry));
+  return whole ? double(pipeline.width) / pipeline.height : double(v.width) / v.height;
+}
+
+/// An element of a matrix of the view, as the vertex shader has it before it is rounded; check_camera() has seen it.
+std::optional<uint32_t> of_matrices(std::string_view name, const Camera& camera, const Pipeline& pipeline) {
+  const ClipRange range = clip_range(pipeline.geometry);
+  const auto element = [name](const Matrix4& matrix) { return bits_of(float(matrix[element_of(name)])); };
+  if (starts(name, "view.view_projection[")) return element(clip_from_world(camera, aspect_of(pipeline), range));
+  if (starts(name, "view.projection[")) return element(clip_from_view(camera, aspect_of(pipeline), range));
+  if (starts(name, "view.view[")) return element(view_from_world(camera));
+  return std::nullopt;
 }
 
 /// A value that holds for the whole frame; nothing where the name is no field of the view.
@@ -58,10 +66,9 @@ std::optional<uint32_t> of_view(std::string_view name, const Scene& scene, const
   if (starts(name, "view.eye")) return bits_of(camera.eye[c]);
   if (starts(name, "view.axis")) return bits_of(-axis[c]);
   if (starts(name, "view.size")) return bits_of(float(c == 0 ? pipeline.width : pipeline.height));
-  if (starts(name, "view.view_projection[")) return bits_of(float(view_projection(camera, pipeline)[element_of(name)]));
-  if (name == "view.time") return bits_of(0.0f);
-  if (name == "view.frame") return 0u;
-  return std::nullopt;
+  if (name == "view.time") return bits_of(float(scene.time));
+  if (name == "view.frame") return frame_at(scene);
+  return of_matrices(name, camera, pipeline);
 }
 
 uint32_t of_light(std::string_view name, const Light& light, uint32_t index) {
@@ -116,10 +123,11 @@ Pipeline with_planes_of_program(const Pipeline& pipeline) {
   return with_planes_of(pipeline, program_reads(executable->program.name, input_names(*executable)));
 }
 
-ProgramFrame::ProgramFrame(const Scene& scene, const Pipeline& pipeline, Unlit unlit)
+ProgramFrame::ProgramFrame(const Scene& scene, const Pipeline& pipeline, Unlit unlit, const CapturedFields& there)
     : executable_(trueshade::executable_of(pipeline.light_program)),
       reads_(program_reads(executable_->program.name, input_names(*executable_))),
       constants_(*executable_) {
+  require_fields(executable_->program.name, reads_.captured, there);
   for (const Material& m : scene.materials) unlit_.push_back(m.unlit && unlit == Unlit::shows_albedo);
   set_constants(scene, pipeline);
   set_lights(scene);
@@ -129,6 +137,7 @@ void ProgramFrame::set_constants(const Scene& scene, const Pipeline& pipeline) {
   const programs::Program& program = executable_->program;
   const programs::Stage& stage = executable_->at(Rate::constant);
   check_values(pipeline.light_program, input_names(*executable_));
+  check_camera(scene.camera, program.name, input_names(*executable_));
   for (size_t i = 0; i < stage.inputs.size(); ++i) {
     const ProgramInput& input = program.inputs[stage.inputs[i]];
     std::optional<uint32_t> value = of_view(input.name, scene, pipeline);
@@ -170,7 +179,11 @@ const void* ProgramFrame::plane_of(size_t input, const SurfaceTile& surface, con
   if (name == "surface.roughness") return surface.plane[kSpecular + 1];
   if (starts(name, "surface.emission")) return surface.plane[kEmission + c];
   if (name == "surface.occlusion") return surface.plane[kOcclusion];
-  if (starts(name, "surface.uv")) return surface.plane[kUv + c];
+  if (starts(name, "surface.uv.")) return surface.plane[kUv + c];
+  if (starts(name, "surface.uv1.")) return surface.captured->plane[kUv1 + c];
+  if (starts(name, "surface.tangent.")) return surface.captured->plane[kTangent + c];
+  if (constexpr std::string_view kField = "surface.user["; starts(name, kField))
+    return surface.captured->plane[kUser + 4 * (name[kField.size()] - '0') + c];
   if (name == "surface.object") return surface.object;
   if (name == "surface.material") return surface.material;
   return name == "surface.pixel_x" ? pixels[0] : pixels[1];

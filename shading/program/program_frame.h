@@ -25,15 +25,18 @@ enum class Unlit : uint8_t { shows_albedo, by_planes };
 /// A light program with what holds for a frame: its parameters, the view, and what it makes of the lights alone.
 class ProgramFrame {
  public:
-  /// pipeline: with_planes_of_program(). Error(usage) where a parameter is missing or there is none of its name.
-  ProgramFrame(const Scene& scene, const Pipeline& pipeline, Unlit unlit = Unlit::shows_albedo);
+  /// pipeline: with_planes_of_program(). `there`: what surfaces have besides, those of a capture. Error where the
+  /// program reads what is not there, or a parameter is missing or there is none of its name.
+  ProgramFrame(const Scene& scene, const Pipeline& pipeline, Unlit unlit = Unlit::shows_albedo,
+               const CapturedFields& there = {});
 
   const programs::Executable& executable() const { return *executable_; }
   const std::shared_ptr<const programs::Executable>& shared_executable() const { return executable_; }
   const programs::ConstantValues& constants() const { return constants_; }
   const programs::LaneValues& lights() const { return *lights_; }
   const ProgramReads& reads() const { return reads_; }
-  bool is_unlit(uint32_t material) const { return unlit_[material]; }  ///< shows its colour, whatever the lights
+  /// Shows its colour, whatever the lights. A capture's material may be none of the scene's.
+  bool is_unlit(uint32_t material) const { return material < unlit_.size() && unlit_[material]; }
 
   /// Where a tile holds an input of the stage of surfaces; `pixels` has the numbers of columns and rows, a plane each.
   const void* plane_of(size_t input, const SurfaceTile& surface, const uint32_t* const pixels[2]) const;

@@ -77,6 +77,31 @@ TEST_CASE("What is wrong with a light program is said with its place or its opti
       with({"--light-shader", "needs.glsl", "--light-parameter", "gain=1", "--strategy", "deferred-volumes"});
   CHECK(blends.exit_code == 2);
   CHECK(has(blends.err, "deferred-loop"));
+  write("version.glsl", "#version 450\nvec3 light(Surface s, Light l, View v) { return vec3(1); }\n");
+  write("marked.glsl", "\xEF\xBB\xBFvec3 light(Surface s, Light l, View v) { return vec3(1); }\n");
+  for (const char* const command : {"render", "glsl"}) {
+    std::vector<std::string> words{command, "builtin:cornell", "--light-shader", "version.glsl"};
+    const Outcome version = run(words);
+    CHECK(version.exit_code == 3);
+    CHECK(has(version.err, "version.glsl:1:"));
+    CHECK(has(version.err, "leave the line out"));
+    words.back() = "marked.glsl";
+    const Outcome marked = run(words);
+    CHECK(marked.exit_code == 3);
+    CHECK(has(marked.err, "marked.glsl:1:1: begins with a byte order mark"));
+  }
+  write("taken.glsl", "\nconst float base = 0.5;\nvec3 light(Surface s, Light l, View v) { return vec3(base); }\n");
+  for (const char* const command : {"render", "glsl", "validate", "explain"}) {
+    std::vector<std::string> words{command, "builtin:cornell", "--light-shader", "taken.glsl"};
+    if (command == std::string("explain")) words.insert(words.end(), {"--pixel", "9,9"});
+    const Outcome taken = run(words);
+    INFO(command << taken.err);
+    CHECK(taken.exit_code == 3);
+    CHECK(has(taken.err, "taken.glsl:2"));
+  }
+  const Outcome outside = with({"--light-shader", "toon", "--light-parameter", "steps=0.5"});
+  CHECK(outside.exit_code == 2);
+  CHECK(has(outside.err, "(from 1)"));
   write("zeros.spv", std::string("\x03\x02\x23\x07", 4) + std::string(64, '\0'));
   CHECK(with({"--light-shader", "zeros.spv"}).exit_code == 3);
 }
@@ -139,7 +164,7 @@ TEST_CASE("list names the models that ship, and says of one what it reads, as it
   CHECK(gltf.at("sha256") == sha256_of(shipped_model("gltf").text));
   CHECK(gltf.at("parameters").empty());
   CHECK(gltf.at("defines") == json::array({"light", "start"}));
-  CHECK(toon.at("parameters") == json::parse(R"([{"name": "steps", "type": "float"}])"));
+  CHECK(toon.at("parameters") == json::parse(R"([{"name": "steps", "type": "float", "range": "from 1"}])"));
   CHECK(toon.at("defines") == json::array({"light"}));
   const auto reads = [](const json& of, const char* field) {
     return std::count(of.at("reads").begin(), of.at("reads").end(), field) == 1;
@@ -159,7 +184,8 @@ TEST_CASE("list names the models that ship, and says of one what it reads, as it
     CHECK(std::count(name.begin(), name.end(), '.') == 1);
   }
   const std::string text = run({"list", "toon"}).out;
-  for (const char* line : {"toon: Cartoons", "\n  steps           float\n", "\n  surface.normal\n", "\n  light\n"})
+  for (const char* line :
+       {"toon: Cartoons", "\n  steps           float, from 1\n", "\n  surface.normal\n", "\n  light\n"})
     CHECK(has(text, line));
   write("tinted.glsl",
         "layout(std140) uniform Parameters { float x; vec3 tint; };\n"

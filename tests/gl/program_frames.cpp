@@ -203,7 +203,10 @@ const char* const kFields[] = {
     "l.right + l.up + vec3(float(l.shadow), float(l.cookie), 1.0)",
     "v.eye",
     "v.axis",
-    "vec3(v.size * 0.01, v.time + float(v.frame) + 1.0)",
+    "vec3(v.size * 0.01, 1.0)",
+    "vec3(v.time * 0.1, float(v.frame & 65535u) * 0.001, float(v.frame >> 16))",
+    "(v.view * vec4(1.0, 2.0, 3.0, 1.0)).xyz * 0.1",
+    "(v.projection * vec4(1.0, 2.0, -3.0, 1.0)).xyw * 0.1",
     "(v.view_projection * vec4(1.0, 2.0, 3.0, 1.0)).xyw",
     "vec3(v.view_projection[0].x, v.view_projection[1].y, v.view_projection[2].w)",
 };
@@ -246,7 +249,9 @@ void check_program_kinds(const ProgramDrawer& drawn) {
 }
 
 void check_program_fields(const ProgramDrawer& drawn) {
-  const Scene scene = furnished();
+  Scene scene = furnished();
+  scene.timeline.fps = 20000.0;  // a frame's number that is more than 16 bits
+  set_time(scene, 7.25);
   for (const char* field : kFields) {
     Pipeline pipeline = by_program(std::string("vec3 light(Surface s, Light l, View v) { return ") + field + "; }\n");
     pipeline.light_volumes.point = pipeline.light_volumes.spot = LightExtent::unbounded;

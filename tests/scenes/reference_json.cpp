@@ -51,6 +51,22 @@ TEST_CASE("A scene that refers to another is that scene, but for what stands bes
   CHECK(other.timeline.lights.size() == inner.timeline.lights.size());
 }
 
+TEST_CASE("A scene that shows another at a time stands there, whatever the time is") {
+  const ScratchFolder folder;
+  folder.write("inner.json", kInner);
+  Scene scene = loaded(folder, referring("inner.json", R"(, "time": 1.5)"));
+  CHECK(scene.time == 1.5);
+  CHECK(frame_at(scene) == 45);
+  set_time(scene, 0.25);
+  CHECK(scene.time == 1.5);
+  Scene moving = loaded(folder, referring("inner.json"));
+  set_time(moving, 0.25);
+  CHECK(moving.time == 0.25);
+  CHECK(frame_at(moving) == 8);  // 7.5: of two that are as near, the later
+  set_time(moving, -1.0);
+  CHECK(frame_at(moving) == 0);
+}
+
 TEST_CASE("Lights are changed as the other scene was loaded, one change after the other, and then the time is set") {
   const ScratchFolder folder;
   folder.write("inner.json", kInner);

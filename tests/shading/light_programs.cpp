@@ -135,6 +135,49 @@ TEST_CASE("Metals, gloss, emission and unlit colours come to a program as materi
             .find("share a plane") != std::string::npos);
 }
 
+TEST_CASE("A program sees the camera's matrices and the scene's time as the scene has them") {
+  Scene scene = builtin_scene("cornell,lights=1");
+  scene.timeline.fps = 30.0;
+  set_time(scene, 2.5);
+  const auto drawn = [&](const char* value) {
+    const std::string text = std::string(
+                                 "vec3 light(Surface s, Light l, View v) { return vec3(0); }\n"
+                                 "vec3 start(Surface s, View v) { return ") +
+                             value + "; }\n";
+    Frame frame = render_frame(scene, by_program(text.c_str()), {});
+    return glm::vec3(pixel(frame, 48, 32, 0), pixel(frame, 48, 32, 1), pixel(frame, 48, 32, 2));
+  };
+  CHECK(drawn("vec3(v.time, float(v.frame), 1.0)") == glm::vec3(2.5f, 75.0f, 1.0f));
+  CHECK(drawn("(v.view * vec4(v.eye, 1.0)).xyz").x == Approx(0.0f).margin(1e-5));
+  const glm::vec3 ahead = drawn("(v.view * vec4(v.eye + v.axis, 1.0)).xyz");
+  CHECK(ahead.x == Approx(0.0f).margin(1e-5));
+  CHECK(ahead.y == Approx(0.0f).margin(1e-5));
+  CHECK(ahead.z == Approx(-1.0f).margin(1e-5));
+  const glm::vec3 both = drawn("(v.projection * (v.view * vec4(1.0, 2.0, 3.0, 1.0))).xyw"),
+                  at_once = drawn("(v.view_projection * vec4(1.0, 2.0, 3.0, 1.0)).xyw");
+  for (int k = 0; k < 3; ++k) CHECK(both[k] == Approx(at_once[k]).epsilon(1e-4));
+  const glm::vec3 lens = drawn("vec3(v.projection[1].y, v.projection[0].x, v.projection[2].w)");
+  CHECK(lens.y == Approx(lens.x * 64.0f / 96.0f));
+  CHECK(lens.z == -1.0f);
+  scene.camera.clip_from_world.emplace();
+  for (size_t i = 0; i < 16; ++i) (*scene.camera.clip_from_world)[i] = i % 5 == 0 ? 1.0f : 0.0f;
+  for (const char* field : {"view", "projection"})
+    CHECK(error_of(
+              scene,
+              by_program(
+                  (std::string("vec3 light(Surface s, Light l, View v) { return v.") + field + "[0].xyz; }").c_str()))
+              .find(std::string("reads view.") + field) != std::string::npos);
+}
+
+TEST_CASE("Fields that only a capture has are refused by name where nothing fills them") {
+  const Scene scene = builtin_scene("cornell,lights=1");
+  for (const char* field : {"uv1", "tangent", "user[3]"}) {
+    const std::string text = std::string("vec3 light(Surface s, Light l, View v) { return vec3(s.") + field + ".x); }";
+    const std::string error = error_of(scene, by_program(text.c_str()));
+    CHECK(error.find(std::string("reads surface.") + field + ", which nothing fills here") != std::string::npos);
+  }
+}
+
 TEST_CASE("NaN is stored as one pattern on every target, also where nothing else is added") {
   const Scene scene = builtin_scene("cornell,lights=2");
   for (const char* blue : {"1.0", "0.0", "sqrt(-2.0)"}) {

@@ -6,6 +6,8 @@
 #include <functional>
 #include <thread>
 
+#include "cli/preparation.h"
+#include "core/sha256.h"
 #include "scenes/pipeline/presets.h"
 #include "tests/catch.hpp"
 #include "tests/scratch_folder.h"
@@ -20,8 +22,8 @@ struct Run {
   SceneSource source;
   Session session;
 
-  explicit Run(const std::string& spec)
-      : source(source_of(spec)), session(source, opened_scene(source, files), {}, [] {}) {}
+  explicit Run(const std::string& spec) : Run(source_of(spec)) {}
+  explicit Run(SceneSource from) : source(std::move(from)), session(source, opened_scene(source, files), {}, [] {}) {}
 
   /// Lets time pass until something holds; fails after 20 s.
   void until(const std::function<bool()>& holds) {
@@ -39,6 +41,7 @@ struct Run {
   }
   std::string rendered() const {
     Scene scene = load_scene(source.spec);
+    set_time(scene, session.state().time);
     return image_hash(render_frame(scene, drawn_pipeline(session.state())).color);
   }
 };
@@ -143,6 +146,97 @@ TEST_CASE("A change of a file that the scene refers to loads it anew, with chang
   run.until([&] { return run.session.facts().lights.size() == 1; });
   CHECK(run.session.state().changes.size() == 1);
   run.until_still();
+}
+
+/// Drawn by a file of GLSL.
+SceneSource by_model(const std::string& spec, const std::string& file) {
+  SceneSource source = source_of(spec);
+  source.pipeline = [file, plain = source.pipeline](const Scene& scene) {
+    Pipeline pipeline = plain(scene);
+    pipeline.light_program = light_program_of(file);
+    pipeline.light_volumes.point = pipeline.light_volumes.spot = LightExtent::range;
+    return pipeline;
+  };
+  return source;
+}
+
+std::string model_text(const std::string& members, const std::string& value) {
+  return "layout(std140) uniform Parameters {\n  " + members + "\n};\n" +
+         "vec3 light(Surface s, Light l, View v) {\n  return " + value + " * s.albedo.rgb;\n}\n";
+}
+
+/// As an editor saves: another file takes the place.
+void replace(const ScratchFolder& folder, const std::string& text) {
+  folder.write("saved.tmp", text);
+  std::filesystem::rename(folder.path("saved.tmp"), folder.path("live.glsl"));
+}
+
+TEST_CASE("A light model's file that is saved is drawn anew, and while it is broken the last that compiled is drawn") {
+  const ScratchFolder folder;
+  Run run(by_model("builtin:cornell", folder.write("live.glsl", model_text("float gain;  // 0 to 1", "gain"))));
+  Session& session = run.session;
+  run.until_still();
+  REQUIRE(session.parameters().size() == 1);
+  CHECK(session.state().pipeline.light_program.parameters == std::vector<ProgramParameter>{{"gain", {0.5f}}});
+  CHECK(session.hash() == run.rendered());
+  session.set_parameter("gain", {0.25f});
+  run.until_still();
+  const std::string first = session.hash();
+  CHECK(first == run.rendered());
+  CHECK_THROWS_WITH(session.set_parameter("gain", {2.0f}), Catch::Contains("(0 to 1)"));
+  CHECK_THROWS_WITH(session.set_parameter("gian", {1.0f}), Catch::Contains("no 'gian'"));
+
+  replace(folder, model_text("float gain;  // 0 to 1", "gian"));
+  run.until([&] { return session.broken_model().has_value(); });
+  CHECK(session.broken_model()->reason.find("live.glsl:5:10: 'gian'") != std::string::npos);
+  CHECK(session.broken_model()->line == "return gian * s.albedo.rgb;");
+  CHECK(session.take_problems().size() == 1);
+  session.set_parameter("gain", {0.75f});
+  run.until_still();
+  CHECK(session.hash() != first);
+  CHECK(session.hash() == run.rendered());
+  CHECK(session.broken_model());  // until the file is another one
+
+  replace(folder, model_text("float other; vec2 gain;", "gain.y * other"));
+  run.until([&] { return !session.broken_model(); });
+  run.until_still();
+  CHECK(session.hash() == run.rendered());
+  CHECK(session.state().pipeline.light_program.parameters ==
+        std::vector<ProgramParameter>{{"other", {1.0f}}, {"gain", {0.75f, 1.0f}}});
+  CHECK(session.state().pipeline.light_program.sha256 ==
+        sha256_of(model_text("float other; vec2 gain;", "gain.y * other")));
+
+  std::filesystem::remove(folder.path("live.glsl"));
+  run.until([&] { return session.broken_model().has_value(); });
+  CHECK(session.broken_model()->line.empty());
+  session.set_model("");
+  run.until_still();
+  CHECK_FALSE(session.broken_model());
+  CHECK(session.parameters().empty());
+  CHECK(session.hash() == run.rendered());
+  session.set_model("toon");
+  run.until_still();
+  CHECK(session.hash() == run.rendered());
+  CHECK_THROWS_WITH(session.set_model("tune"), Catch::Contains("toon"));
+}
+
+TEST_CASE("A preset that is chosen keeps the light model, time passes where it reads it, and exposure has no part") {
+  const ScratchFolder folder;
+  Run run(by_model("builtin:lecture", folder.write("live.glsl", model_text("float gain;", "gain * (1.0 + v.time)"))));
+  Session& session = run.session;
+  run.until_still();
+  const std::string first = session.hash();
+  session.act(Action::next_preset);
+  CHECK(session.state().pipeline.light_program.used());
+  session.set_exposure(2.0);
+  CHECK(session.state().exposure == 0.0);
+  CHECK(session.has_time());
+  session.act(Action::play);
+  session.pass({}, 0.25);
+  session.act(Action::play);
+  run.until_still();
+  CHECK(session.state().time == 0.25);
+  CHECK(session.hash() != first);
 }
 
 TEST_CASE("Saved pictures and scenes are named by the hash, and a folder that is not there is a problem of its own") {

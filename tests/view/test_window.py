@@ -81,6 +81,20 @@ SCENE = """{"version": 1, "objects": [{"mesh": "knot", "color": [%s]}, {"mesh": 
   "lights": [{"type": "point", "position": [2, 3, 2], "range": 9}, {"type": "ambient", "color": [0.1, 0.1, 0.1]}]}"""
 
 
+MODEL = """layout(std140) uniform Parameters {
+  float gain;  // 0 to 1
+};
+vec3 light(Surface s, Light l, View v) {
+  return %s * s.albedo.rgb * l.color;
+}
+"""
+
+
+def until(name):
+    while not os.path.exists(path(name)):
+        time.sleep(0.05)
+
+
 class Window(unittest.TestCase):
     def test_shows_the_hash_of_render(self):
         for scene, options in (("builtin:cornell", []), ("builtin:circle,lights=20", ["--time", "1.5"]),
@@ -179,6 +193,48 @@ class Window(unittest.TestCase):
         self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
         write("scene.json", SCENE % "0.2, 0.8, 0.2")
         self.assertEqual(hashes(run("render", "scene.json", "--size", "320x240", "--hash").stdout), [third])
+
+    def test_a_saved_light_model_is_drawn_and_a_broken_one_is_told_of_over_the_last_good_picture(self):
+        write("live.glsl", MODEL % "gain")
+
+        def saved(text):
+            write("saved.tmp", text)
+            os.rename(path("saved.tmp"), path("live.glsl"))
+
+        lines = ["light-parameter gain=0.25", "panel model", "still", "hash", "screenshot good.png"]
+        lines += ["wait 1.5", "still", "screenshot broken.png", "hash", "wait 7", "still", "screenshot repaired.png", "hash", "save model.png",
+                  "save model.json", "light-parameter gain=0.5", "still", "hash", "model toon", "still", "hash", "model none", "still",
+                  "hash"]
+        told = threading.Thread(target=lambda: (until("good.png"), saved(MODEL % "gian"), until("broken.png"), saved(MODEL % "gain * gain")))
+        told.start()
+        done = view("builtin:lecture", lines, "--size", "640x480", "--light-shader", "live.glsl")
+        told.join()
+        found = hashes(done.stdout)
+        flags = ["--size", "640x480", "--hash", "--light-shader"]
+
+        def drawn(text, gain):
+            write("drawn.glsl", text)
+            return hashes(run("render", "builtin:lecture", *flags, "drawn.glsl", "--light-parameter", f"gain={gain}").stdout)[0]
+        self.assertEqual(found[:4], [drawn(MODEL % "gain", 0.25)] * 2 + [drawn(MODEL % "gain * gain", 0.25), drawn(MODEL % "gain * gain", 0.5)])
+        self.assertEqual(found[4:5], hashes(run("render", "builtin:lecture", *flags, "toon", "--light-parameter", "steps=1").stdout))
+        self.assertEqual(found[5:], hashes(run("render", "builtin:lecture", "--size", "640x480", "--hash").stdout))
+        self.assertIn("live.glsl:5:10: 'gian' : undeclared identifier", done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        good, broken, repaired = (pixels_of_png(name + ".png")[2] for name in ("good", "broken", "repaired"))
+        told_at = [(x, y) for y in range(60, 110) for x in range(20, 280) if good[y][x] != broken[y][x]]
+        self.assertGreater(len(told_at), 5000)
+        reds = sum(r > 200 and g < 160 and b < 160 for row in broken[55:120] for r, g, b in row[:300])
+        self.assertGreater(reds, 100)
+        self.assertEqual(sum(r > 200 and g < 160 and b < 160 for row in repaired[55:120] for r, g, b in row[:300]), 0)
+        self.assertIn('"file": "live.glsl"' , run("info", "model.png", "--json").stdout.replace('":"', '": "'))
+        render = ["render", "model.json", "--hash"]
+        self.assertIn("live.glsl", run(*render, code=2).stderr)  # whose text is in no scene file
+        self.assertEqual(hashes(run(*render, "--light-shader", "live.glsl").stdout), [found[2]])
+
+    def test_a_light_model_that_is_none_ends_before_the_window(self):
+        write("none.glsl", "vec3 light(")
+        self.assertIn("none.glsl:", run("view", "builtin:cornell", "--light-shader", "none.glsl", code=3).stderr)
+        run("view", "builtin:cornell", "--light-parameter", "gain=1", code=2)
 
     def test_garbage(self):
         for text, reason in (("fly 3\n", "line 1: no line begins with 'fly'"), ("still\nkey w\n", "line 2: it ends too soon"),

@@ -26,13 +26,12 @@ bool play_button(const PanelContext& context, bool plays) {
 
 void draw_time(const PanelContext& context, float width) {
   Session& session = context.session;
-  if (!session.facts().moves) return;
+  if (!session.has_time()) return;
   if (play_button(context, session.plays())) session.play(!session.plays());
   ImGui::SameLine();
   auto time = float(session.state().time);
   ImGui::SetNextItemWidth(width - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x);
-  if (ImGui::SliderFloat("##time", &time, 0.0f, float(session.facts().last_time), "%.2f s",
-                         ImGuiSliderFlags_AlwaysClamp))
+  if (ImGui::SliderFloat("##time", &time, 0.0f, float(session.last_time()), "%.2f s", ImGuiSliderFlags_AlwaysClamp))
     session.set_time(double(time));
   ImGui::SameLine();
 }
@@ -51,7 +50,8 @@ struct PanelButton {
 constexpr PanelButton kPanelButtons[] = {{Panel::picture, Action::picture_panel},
                                          {Panel::lights, Action::lights_panel},
                                          {Panel::pixel, Action::pixel_panel},
-                                         {Panel::statistics, Action::statistics_panel}};
+                                         {Panel::statistics, Action::statistics_panel},
+                                         {Panel::model, Action::model_panel}};
 constexpr const char* kHelp = "?";
 
 void draw_panel_button(const PanelContext& context, const PanelButton& button) {

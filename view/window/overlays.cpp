@@ -93,6 +93,31 @@ void draw_notice(const PanelContext& context) {
   ImGui::End();
 }
 
+void draw_broken_model(const PanelContext& context) {
+  const std::optional<BrokenModel>& broken = context.session.broken_model();
+  if (!broken) return;
+  const float beside = context.session.desk().panel == Panel::none ? 0.0f : context.panel_width();
+  const float width =
+      std::max(std::min(context.width - beside - context.size(30), context.size(640)), context.size(240));
+  ImGui::SetNextWindowPos({context.size(10), context.size(52)});
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, context.height});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, IM_COL32(17, 19, 23, 244));
+  ImGui::PushStyleColor(ImGuiCol_Border, (kBad & ~IM_COL32_A_MASK) | IM_COL32(0, 0, 0, 150));
+  ImGui::Begin("broken", nullptr, kOverlay);
+  ImGui::PushTextWrapPos(width - context.size(12));
+  ImGui::PushFont(context.fonts.bold);
+  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kBad), "The light model does not compile");
+  ImGui::PopFont();
+  ImGui::PushFont(context.fonts.mono);
+  ImGui::TextUnformatted(broken->reason.c_str());
+  if (!broken->line.empty()) ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kAccent), "%s", broken->line.c_str());
+  ImGui::PopFont();
+  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kDim), "The picture is drawn by the last version that did.");
+  ImGui::PopTextWrapPos();
+  ImGui::End();
+  ImGui::PopStyleColor(2);
+}
+
 void draw_marks(const PanelContext& context) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   Session& session = context.session;
@@ -187,6 +212,9 @@ void draw_panel(const PanelContext& context) {
       break;
     case Panel::statistics:
       draw_statistics_panel(context);
+      break;
+    case Panel::model:
+      draw_model_panel(context);
       break;
     case Panel::none:
       break;

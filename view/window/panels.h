@@ -22,12 +22,13 @@ struct PanelContext {
 };
 
 // Each draws a part of the window by ImGui.
-void draw_bar(const PanelContext& context);     ///< below: preset, view, time, panels
-void draw_status(const PanelContext& context);  ///< top left: what is shown, how fast, its hash
-void draw_notice(const PanelContext& context);  ///< what happened last
-void draw_marks(const PanelContext& context);   ///< over the picture: the clicked pixel, the selected light
-void draw_scale(const PanelContext& context);   ///< left: what the colours of a heat map stand for
-void draw_panel(const PanelContext& context);   ///< at the right: the one that is open
+void draw_bar(const PanelContext& context);           ///< below: preset, view, time, panels
+void draw_status(const PanelContext& context);        ///< top left: what is shown, how fast, its hash
+void draw_notice(const PanelContext& context);        ///< what happened last
+void draw_broken_model(const PanelContext& context);  ///< why the light model's file is none, for as long as it is
+void draw_marks(const PanelContext& context);         ///< over the picture: the clicked pixel, the selected light
+void draw_scale(const PanelContext& context);         ///< left: what the colours of a heat map stand for
+void draw_panel(const PanelContext& context);         ///< at the right: the one that is open
 void draw_help(const PanelContext& context);
 
 // The panels' contents.
@@ -35,6 +36,7 @@ void draw_picture_panel(const PanelContext& context);
 void draw_lights_panel(const PanelContext& context);
 void draw_pixel_panel(const PanelContext& context);
 void draw_statistics_panel(const PanelContext& context);
+void draw_model_panel(const PanelContext& context);
 
 /// A list of names to choose one of; the index of the chosen one, where another was chosen.
 template <typename Names>

@@ -36,13 +36,18 @@ void draw_how(const PanelContext& context, float width) {
   }
 }
 
-void draw_light(const PanelContext& context, float width) {
+void draw_exposure(const PanelContext& context, float width) {
   Session& session = context.session;
   auto stops = float(session.state().exposure);
   row_name(context, "Exposure");
   ImGui::SetNextItemWidth(width);
   if (ImGui::SliderFloat("##exposure", &stops, -8.0f, 8.0f, "%+.2f stops")) session.set_exposure(double(stops));
   if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) session.set_exposure(0.0);
+}
+
+void draw_light(const PanelContext& context, float width) {
+  Session& session = context.session;
+  if (!session.state().pipeline.light_program.used()) draw_exposure(context, width);
   Pipeline pipeline = session.state().pipeline;
   PostChain& post = pipeline.post;
   bool changed = false;

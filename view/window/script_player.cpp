@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cli/commands.h"
+#include "cli/preparation.h"
 #include "core/error.h"
 #include "core/file_ending.h"
 #include "core/image_files/image_io.h"
@@ -120,6 +121,11 @@ bool ScriptPlayer::set(const ScriptStep& step) {
   if (is("orbit")) return window_.scripted.orbit = {number(0) * kRadians, number(1) * kRadians}, true;
   if (is("size")) return window_.set_size(int(number(0)), int(number(1))), true;
   if (is("panel")) return session_.desk().panel = Panel(index_of(kPanelNames, step.words[0])), true;
+  if (is("model")) return session_.set_model(step.words[0] == "none" ? "" : step.words[0]), true;
+  if (is("light-parameter")) {
+    const ProgramParameter given = parameter_of(step.words[0]);
+    return session_.set_parameter(given.name, given.value), true;
+  }
   if (step.command.starts_with("light")) return change_light(step), true;
   if (!is("camera")) return false;
   Camera camera = session_.picture() ? session_.picture()->camera : Camera();
@@ -154,7 +160,7 @@ void ScriptPlayer::check_becomes_still(const ScriptStep& step) const {
   const auto fail = [&](const char* reason, const char* remedy) {
     throw Error(ErrorKind::bad_input, where_ + ": line " + std::to_string(step.line), reason, remedy);
   };
-  if (session_.plays() && session_.facts().moves)
+  if (session_.plays() && session_.has_time())
     fail("it waits until nothing moves, and the time plays", "a line `pause` before it");
   if (session_.is_refused() && !session_.waits())
     fail("it waits for a picture that cannot be drawn", "other lines before it; the note says what is wrong");

@@ -198,7 +198,8 @@ void Window::pass_time() {
 }
 
 bool Window::is_due() const {
-  return shown_ != session_.picture() || frames_to_show_ > 0 || shown_hash_ != session_.hash() || session_.notice();
+  return shown_ != session_.picture() || frames_to_show_ > 0 || shown_hash_ != session_.hash() || session_.notice() ||
+         shown_model_ != session_.model_revision();
 }
 
 bool Window::step(std::chrono::milliseconds longest) {
@@ -239,6 +240,7 @@ void Window::draw_panels(const Canvas& canvas) {
       draw_bar(context);
       draw_panel(context);
     }
+    draw_broken_model(context);
     draw_notice(context);
     draw_help(context);
   } catch (const Error& error) {
@@ -255,6 +257,8 @@ void Window::show() {
   const bool is_new = picture != shown_;
   shown_ = picture;
   shown_hash_ = session_.hash();
+  if (std::exchange(shown_model_, session_.model_revision()) != session_.model_revision())
+    frames_to_show_ = kSettlingFrames;
   frames_to_show_ = is_new ? std::max(frames_to_show_, 1) : frames_to_show_;
   frames_to_show_ = std::max(frames_to_show_ - 1, 0);
   SDL_Surface* const surface = SDL_GetWindowSurface(window_);

@@ -81,6 +81,7 @@ class Window {
   FrameTimes times_;
   std::shared_ptr<const DrawnPicture> shown_;
   std::string shown_hash_;
+  uint64_t shown_model_ = 0;
   Clock::time_point last_pass_, last_new_picture_, last_show_;
   std::chrono::duration<double> shortest_{1.0 / 125.0};  // from one picture to the next
   int frames_to_show_ = kSettlingFrames;

@@ -99,7 +99,9 @@ class FieldReader {
   static void take(const trueshade::json::Node& node, glm::dmat4x3& m) {
     take_all(node, std::span<double>(&m[0].x, 12));
   }
-  static void take(const trueshade::json::Node& node, std::optional<float>& v) { take_json(node, v.emplace()); }
+  template <typename Number>
+  requires std::is_floating_point_v<Number>
+  static void take(const trueshade::json::Node& node, std::optional<Number>& v) { take_json(node, v.emplace()); }
   template <typename T>
   static void take(const trueshade::json::Node& node, std::optional<std::array<T, 16>>& v) {
     take_all(node, std::span<T>(v.emplace()));

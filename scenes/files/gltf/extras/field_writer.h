@@ -111,6 +111,7 @@ class FieldWriter {
   void put(const glm::dvec4& v) { append_json(out_, std::span<const double>(&v.x, 4)); }
   void put(const glm::dmat4x3& m) { append_json(out_, std::span<const double>(&m[0].x, 12)); }
   void put(const std::optional<float>& v) { append_json(out_, *v); }
+  void put(const std::optional<double>& v) { append_json(out_, *v); }
   void put(const std::optional<std::array<float, 16>>& v) { append_json(out_, std::span<const float>(*v)); }
   void put(const std::optional<std::array<double, 16>>& v) { append_json(out_, std::span<const double>(*v)); }
   void put(const std::vector<double>& v) { append_json(out_, std::span<const double>(v)); }

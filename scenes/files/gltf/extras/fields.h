@@ -121,6 +121,7 @@ inline constexpr auto kMotionFields = [](auto& f, auto& motion) {
 
 inline constexpr auto kTimelineFields = [](auto& f, auto& t) {
   f("fps", t.fps, Timeline().fps);
+  f("stands_at", t.stands_at, std::optional<double>());
   f.list("motions", t.motions, kMotionFields);
   f.list("instances", t.instances, [](auto& g, auto& moving) {
     g("instance", moving.instance, 0u);

@@ -1,0 +1,29 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trueshade {
+
+/// Which values a parameter of a light program is made for, ends included.
+struct ParameterRange {
+  double least, most;  ///< most may be infinite
+  bool holds(double value) const { return value >= least && value <= most; }
+  std::string text() const;  ///< "0 to 1", "from 1"
+};
+
+/// A member of a program's block Parameters.
+struct DeclaredParameter {
+  std::string name;
+  std::optional<ParameterRange> range;
+};
+
+/// Those that a program's text declares, in its order. A comment behind members that begins "// 0 to 1" or "// from 1"
+/// states their range; other comments state none.
+std::vector<DeclaredParameter> declared_parameters(std::string_view text);
+
+/// The range of one; null where the text states none.
+const ParameterRange* range_of(const std::vector<DeclaredParameter>& declared, std::string_view name);
+
+}  // namespace trueshade
