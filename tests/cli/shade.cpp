@@ -85,52 +85,55 @@ TEST_CASE("compare judges by the G-buffer that a reference was shaded of, and no
 TEST_CASE("A light program reads planes of a capture by their names in --map, and refuses those that are not named") {
   const ScratchFolder folder;
   const auto run = [&](const Words& words) { return run_command(words, folder.path("")); };
-  const std::string aovs = "depth,position,normal,albedo,uv,id.object,id.material";
-  REQUIRE(run({"render", "builtin:lecture", "--size", "64x48", "-q", "-o", "g.exr", "--aov", aovs}).exit_code == 0);
-  const auto lit = [&](const std::string& value, const std::string& more, bool judged) {
+  const std::string scene = "builtin:lecture";
+  write_bytes(folder.path("p.json"), R"({"target": "rgba32f", "light_volumes": {"point": "range", "spot": "range"}})");
+  REQUIRE(run({"render", scene, "--size", "64x48", "-q", "-o", "g.exr", "--aov",
+               "depth,position,normal,albedo,uv,id.object,id.material"})
+              .exit_code == 0);
+  const auto lit = [&](const std::string& value, const std::string& more) {
     write_bytes(folder.path("field.glsl"),
                 "vec3 light(Surface s, Light l, View v) { return vec3(0); }\n"
                 "vec3 start(Surface s, View v) { return " +
                     value + "; }\n");
-    const std::string map = "depth,position,normal,albedo,id.object" + more;
-    const Outcome drawn = run({"shade", "g.exr", "--lights", "builtin:lecture", "--light-shader", "field.glsl", "--map",
-                               map, "--target", "rgba32f", "-o", "lit.exr", "--hash", "-q"});
-    if (!judged || drawn.exit_code != 0) return drawn;
-    const Outcome verdict =
-        run({"validate", "builtin:lecture", "--size", "64x48", "--light-shader", "field.glsl", "--target", "rgba32f",
-             "--quick", "--gbuffer", "g.exr", "--map", map, "--image", "lit.exr"});
-    INFO(value << verdict.out << verdict.err);
-    CHECK(verdict.exit_code == 0);
-    return drawn;
+    return run({"shade", "g.exr", "--lights", scene, "--light-shader", "field.glsl", "--pipeline", "p.json", "--map",
+                "depth,position,normal,albedo,id.object" + more, "-o", "lit.exr", "--hash", "-q"});
+  };
+  const auto verdict = [&](const std::string& more) {
+    return run({"validate", scene, "--size", "64x48", "--light-shader", "field.glsl", "--pipeline", "p.json", "--quick",
+                "--gbuffer", "g.exr", "--image", "lit.exr", "--subpixel-bits", "8", "--map",
+                "depth,position,normal,albedo,id.object" + more});
   };
   const auto same = [&](const std::string& value, const std::string& more, const std::string& expected) {
-    INFO(value);
-    const Outcome found = lit(value, more, true), wanted = lit(expected, "", false);
-    INFO(found.err << wanted.err);
+    const Outcome wanted = lit(expected, ""), found = lit(value, more), judged = verdict(more);
+    INFO(value << found.err << judged.out << judged.err);
     CHECK(found.exit_code == 0);
     CHECK(found.out == wanted.out);
+    CHECK(judged.exit_code == 0);
   };
-  same("s.user[0].xyz", ",user0=g.P.XYZ", "s.position");
   same("s.user[2].xyz + s.user[3].www", ",user2=g.N.XYZ,user3=g.P.XYZ", "s.normal + vec3(1.0)");
-  same("s.tangent.xyz", ",tangent=g.N.XYZ", "s.normal");
-  same("vec3(s.uv1, s.tangent.w)", ",uv1=g.albedo.RG,tangent=g.albedo.RGB", "vec3(s.albedo.rg, 1.0)");
+  same("vec3(s.uv1, s.tangent.w) + s.tangent.xyz", ",uv1=g.albedo.RG,tangent=g.N.XYZ",
+       "vec3(s.albedo.rg, 1.0) + s.normal");
   same("vec3(s.metallic, s.roughness, s.occlusion)", ",metallic=g.albedo.R,roughness=g.albedo.G,occlusion=g.albedo.B",
        "s.albedo.rgb");
-  const Outcome own = lit("vec3(s.uv, float(s.material))", ",uv,id.material", true);
-  const Outcome frame = run({"render", "builtin:lecture", "--size", "64x48", "--light-shader", "field.glsl", "--target",
-                             "rgba32f", "--hash", "-q"});
+  same("s.user[0].xyz", ",user0=g.P.XYZ", "s.position");
+  CHECK(verdict(",user0=g.N.XYZ").exit_code == 1);  // another plane than the picture was lit by
+  const Outcome own = lit("vec3(s.uv, float(s.material))", ",uv,id.material");
   CHECK(own.exit_code == 0);
-  CHECK(own.out == frame.out);
+  CHECK(own.out == run({"render", scene, "--size", "64x48", "--light-shader", "field.glsl", "--pipeline", "p.json",
+                        "--hash", "-q"})
+                       .out);
   for (const auto& [field, plane] : {std::pair("s.user[1].xyz", "user1"),
                                      {"vec3(s.uv1, 0.0)", "uv1"},
                                      {"s.tangent.xyz", "tangent"},
-                                     {"vec3(s.uv, 0.0)", "uv"},
-                                     {"vec3(float(s.material))", "id.material"},
-                                     {"vec3(s.roughness)", "specular"}}) {
-    const Outcome refused = lit(field, ",user0=g.P.XYZ", false);
-    INFO(field << refused.err);
-    CHECK(refused.exit_code == 3);
-    CHECK(refused.err.find(plane) != std::string::npos);
+                                     {"vec3(s.uv, 0.0)", "plane uv"},
+                                     {"vec3(float(s.material))", "plane id.material"},
+                                     {"vec3(s.roughness)", "plane specular"}}) {
+    const Outcome shaded = lit(field, ",user0=g.P.XYZ"), judged = verdict(",user0=g.P.XYZ");
+    INFO(field << shaded.err << judged.err);
+    CHECK(shaded.exit_code == 3);
+    CHECK(shaded.err.find(plane) != std::string::npos);
+    CHECK(judged.exit_code == 3);
+    CHECK(judged.err.find(plane) != std::string::npos);
   }
 }
 
