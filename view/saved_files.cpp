@@ -4,6 +4,7 @@
 
 #include "cli/frame_text.h"
 #include "core/image_files/image_io.h"
+#include "scenes/light_models/light_models.h"
 #include "view/saved_scene.h"
 
 namespace trueshade::viewer {
@@ -40,7 +41,9 @@ std::string write_scene(const std::string& path, const SceneFacts& facts, const 
   }
   const std::string text = saved_scene(facts, picture, file);
   write_file(file, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
-  return "wrote " + file + "  draws sha256:" + hash;
+  const std::string& model = picture.pipeline.light_program.file;
+  const bool is_file = !model.empty() && !names_shipped_model(model);  // whose text is in no scene file
+  return "wrote " + file + "  draws sha256:" + hash + (is_file ? " with --light-shader " + model : "");
 }
 
 }  // namespace trueshade::viewer

@@ -226,7 +226,8 @@ class Window(unittest.TestCase):
         reds = sum(r > 200 and g < 160 and b < 160 for row in broken[55:120] for r, g, b in row[:300])
         self.assertGreater(reds, 100)
         self.assertEqual(sum(r > 200 and g < 160 and b < 160 for row in repaired[55:120] for r, g, b in row[:300]), 0)
-        self.assertIn('"file": "live.glsl"' , run("info", "model.png", "--json").stdout.replace('":"', '": "'))
+        self.assertIn('"light_program":{"file":"live.glsl","sha256":"', run("info", "model.png").stdout)
+        self.assertIn('"parameters":[{"name":"gain","value":[0.25]}]', run("info", "model.png").stdout)
         render = ["render", "model.json", "--hash"]
         self.assertIn("live.glsl", run(*render, code=2).stderr)  # whose text is in no scene file
         self.assertEqual(hashes(run(*render, "--light-shader", "live.glsl").stdout), [found[2]])

@@ -71,7 +71,7 @@ void draw_status(const PanelContext& context) {
     ImGui::SameLine();
     ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kDim), "%.0f a second", rate_of(context.times));
   }
-  if (session.state().exposure != 0.0) {
+  if (session.state().exposure != 0.0 && !session.state().pipeline.light_program.used()) {
     ImGui::SameLine();
     ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kAccent), "%+.1f stops", session.state().exposure);
   }
