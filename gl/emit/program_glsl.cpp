@@ -13,7 +13,8 @@ constexpr std::string_view kUserText =
 
 constexpr const char* kUniforms = R"(uniform vec3 view_axis;
 uniform vec4 clip_from_world[4];  // rows
-uniform vec4 view_from_world[4], clip_from_view[4];
+uniform vec4 view_from_world[4];
+uniform vec4 clip_from_view[4];
 uniform vec3 moment;              // seconds; the number of the frame, divided by 65536, and the rest
 uniform vec4 picture_place;       // x, y, width, height in the window
 uniform samplerBuffer lights;     // seven texels a light
