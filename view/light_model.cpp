@@ -57,19 +57,19 @@ std::vector<float> value_for(const ModelParameter& parameter, const std::vector<
 
 ReadyModel ready_model(LightProgram program) {
   const std::shared_ptr<const programs::Executable> executable = executable_of(program);
-  ReadyModel model{std::move(program), {}};
+  ReadyModel model;
+  model.program = std::move(program);
   model.parameters = parameters_of(executable->program, model.program.text);
   std::vector<ProgramParameter> values;
   for (const ModelParameter& parameter : model.parameters)
     values.push_back({parameter.name, value_for(parameter, model.program.parameters)});
   model.program.parameters = std::move(values);
-  std::vector<std::string> inputs;
   for (const programs::ProgramInput& input : executable->program.inputs) {
-    inputs.push_back(input.name);
+    model.inputs.push_back(input.name);
     model.reads_time = model.reads_time || input.name == "view.time" || input.name == "view.frame";
   }
-  require_fields(model.program.file, program_reads(model.program.file, inputs).captured);
-  check_values(model.program, inputs);
+  require_fields(model.program.file, program_reads(model.program.file, model.inputs).captured);
+  check_values(model.program, model.inputs);
   return model;
 }
 

@@ -20,6 +20,7 @@ struct ModelParameter {
 struct ReadyModel {
   LightProgram program;  ///< with a value for each parameter
   std::vector<ModelParameter> parameters;
+  std::vector<std::string> inputs;  ///< that it reads, as programs::Program has them
   bool reads_time = false;
 };
 

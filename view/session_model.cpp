@@ -5,6 +5,7 @@
 #include "cli/preparation.h"
 #include "core/error.h"
 #include "scenes/pipeline/presets.h"
+#include "scenes/pipeline/program_inputs.h"
 #include "view/session.h"
 
 namespace trueshade::viewer {
@@ -12,9 +13,8 @@ namespace trueshade::viewer {
 void Session::use(ReadyModel model) {
   for (Pipeline* pipeline : {&state_.pipeline, &base_pipeline_}) pipeline->light_program = model.program;
   parameters_ = std::move(model.parameters);
-  model_reads_time_ = model.reads_time;
+  model_inputs_ = std::move(model.inputs), model_reads_time_ = model.reads_time;
   plays_ = plays_ && has_time();
-  broken_model_.reset();
   ++model_revision_;
 }
 
@@ -25,6 +25,7 @@ void Session::set_model(const std::string& name) {
     volumes.point = preset->light_volumes.point, volumes.spot = preset->light_volumes.spot;
   if (!name.empty()) volumes.point = volumes.spot = LightExtent::range;
   use(std::move(model));
+  broken_model_.reset();
   changed();
 }
 
@@ -37,7 +38,8 @@ void Session::set_parameter(const std::string& name, const std::vector<float>& v
                 "the light model reads no '" + name + "' of " + std::to_string(value.size()) + " numbers",
                 "the panel `model` names its parameters");
   known->value = value;
-  use(ready_model(std::move(program)));
+  check_values(program, model_inputs_);
+  for (Pipeline* pipeline : {&state_.pipeline, &base_pipeline_}) pipeline->light_program = program;
   changed();
 }
 
@@ -68,6 +70,7 @@ void Session::take_model(ReadyModel model) {
   const bool is_same = shown.text == model.program.text;
   model.program.parameters = shown.parameters;
   use(ready_model(std::move(model.program)));
+  broken_model_.reset();
   if (is_same) return;
   card_.reset();
   changed();

@@ -202,7 +202,7 @@ class Window(unittest.TestCase):
             os.rename(path("saved.tmp"), path("live.glsl"))
 
         lines = ["light-parameter gain=0.25", "panel model", "still", "hash", "screenshot good.png"]
-        lines += ["wait 1.5", "still", "screenshot broken.png", "hash", "wait 7", "still", "screenshot repaired.png", "hash", "save model.png",
+        lines += ["wait 4", "still", "hash", "screenshot broken.png", "wait 7", "still", "screenshot repaired.png", "hash", "save model.png",
                   "save model.json", "light-parameter gain=0.5", "still", "hash", "model toon", "still", "hash", "model none", "still",
                   "hash"]
         told = threading.Thread(target=lambda: (until("good.png"), saved(MODEL % "gian"), until("broken.png"), saved(MODEL % "gain * gain")))
