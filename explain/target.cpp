@@ -118,9 +118,9 @@ uint32_t mesh_covers(const ExplainedFrame& frame, const Light& light, const Ligh
   return count;
 }
 
-/// What a light's draw hands to the blender: its term alone.
-std::array<float, 4> source_of(const LightModel& model, const LitPixel& pixel, const LightAtPixel& at) {
-  return received(model, pixel, at.fate == LightFate::adds ? at.term : std::array<float, 3>{});
+/// What a light's draw hands to the blender: its term alone. A program's draw finishes what `light` gives.
+std::array<float, 4> source_of(const LightModel& model, const LightTotal& total, const LightAtPixel& at) {
+  return received(model, total, at.fate == LightFate::adds || total.program ? at.term : std::array<float, 3>{});
 }
 
 void draw_volumes(const ExplainedFrame& frame, const LitSurfaces& lit, LightTimes times, Drawing& drawing) {
@@ -128,11 +128,11 @@ void draw_volumes(const ExplainedFrame& frame, const LitSurfaces& lit, LightTime
   if (!lit.covered) return;
   const LitPixel& surface = lit.visible.pixel;
   if (frame.pipeline.light_volumes.base)
-    drawing.store("what the surface has without lights", received(model, surface, surface.start));
+    drawing.store("what the surface has without lights", received(model, lit.visible, surface.start));
   for (size_t i = 0; i < lit.visible.lights.size(); ++i) {
     if (!inside_extent(frame.lights.row[i], surface)) continue;
     for (uint32_t k = 0; k < lit.geometry[i] * uint32_t(times[i]); ++k)
-      drawing.draw("", int64_t(i), frame.pipeline.blend, source_of(model, surface, lit.visible.lights[i]));
+      drawing.draw("", int64_t(i), frame.pipeline.blend, source_of(model, lit.visible, lit.visible.lights[i]));
   }
 }
 
@@ -142,10 +142,10 @@ void draw_passes(const ExplainedFrame& frame, const LitSurfaces& lit, LightTimes
   if (lit.covered) {
     const LightTotal& visible = lit.visible;
     std::array<float, 3> first = visible.pixel.start;
-    for (int n = lights > 0 && visible.lights[0].fate == LightFate::adds ? times[0] : 0; n > 0; --n)
+    for (int n = !visible.lights.empty() && visible.lights[0].fate == LightFate::adds ? times[0] : 0; n > 0; --n)
       for (size_t k = 0; k < 3; ++k) first[k] = first[k] + visible.lights[0].term[k];
     drawing.store(lights > 0 ? "the first draw, with light 0" : "a draw without lights",
-                  received(model, visible.pixel, first));
+                  received(model, visible, first));
   }
   std::vector<const LightTotal*> layers;
   if (lit.tied.empty() && lit.covered) layers.push_back(&lit.visible);
@@ -154,8 +154,8 @@ void draw_passes(const ExplainedFrame& frame, const LitSurfaces& lit, LightTimes
     for (size_t layer = 0; layer < layers.size(); ++layer) {
       const LightTotal& of = *layers[layer];
       const std::string where = lit.tied.empty() ? "" : "surface " + std::to_string(layer) + " at this depth, ";
-      for (int n = inside_extent(frame.lights.row[i], of.pixel) ? times[i] : 0; n > 0; --n)
-        drawing.draw(where, int64_t(i), kAddLight, source_of(model, of.pixel, of.lights[i]));
+      for (int n = i < of.lights.size() && inside_extent(frame.lights.row[i], of.pixel) ? times[i] : 0; n > 0; --n)
+        drawing.draw(where, int64_t(i), kAddLight, source_of(model, of, of.lights[i]));
     }
 }
 
@@ -183,7 +183,7 @@ LitSurfaces lit_surfaces(const ExplainedFrame& frame, const PixelSurfaces& surfa
   out.covered = surfaces.covered;
   out.geometry = std::move(geometry);
   if (surfaces.covered) out.visible = lit(frame, model, frame.lights, surfaces.visible, surfaces.pixel);
-  for (size_t i = 0; i < out.geometry.size() && surfaces.covered; ++i)
+  for (size_t i = 0; i < out.geometry.size() && i < out.visible.lights.size(); ++i)
     if (out.geometry[i] == 0 && out.visible.lights[i].fate == LightFate::adds)
       out.visible.lights[i].fate = LightFate::not_drawn;
   for (const SurfacePlanes& tied : surfaces.tied)

@@ -18,11 +18,9 @@ std::optional<std::string_view> behind(const ProgramParameter& given, std::strin
 
 }  // namespace
 
-void require_summed_lights(const Pipeline& pipeline) {
-  if (pipeline.light_program.used() && blends_lights(pipeline.strategy))
-    throw Error(ErrorKind::usage, "strategy",
-                "light programs are summed, and " + std::string(name_of(pipeline.strategy)) + " blends light by light",
-                "deferred-loop or forward-loop");
+void end_at_range(LightVolumes& volumes) {
+  for (LightExtent* extent : {&volumes.point, &volumes.spot})
+    if (*extent == LightExtent::unbounded) *extent = LightExtent::range;
 }
 
 ProgramReads program_reads(const std::string& file, std::span<const std::string> inputs) {

@@ -10,8 +10,8 @@
 // programs/light_interface.glsl, a scalar each: "surface.normal.x", "parameters.gain".
 namespace trueshade {
 
-/// Error(usage) where the pipeline has a light program and blends lights one by one.
-void require_summed_lights(const Pipeline& pipeline);
+/// What a light program's lights are bounded by where nothing else is said: geometry of lights stays.
+void end_at_range(LightVolumes& volumes);
 
 /// Which fields of a surface a light program reads, beside position, normal and albedo.
 struct ProgramReads {
