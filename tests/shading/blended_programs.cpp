@@ -1,8 +1,5 @@
 // Light programs under the strategies that blend light by light: against presets whose formula a program states, and
 // against a dull loop that blends what the sum gives of one light at a time by the oracle's blender.
-#include <fstream>
-#include <sstream>
-
 #include "core/simd/simd_target.h"
 #include "oracle/blend.h"
 #include "scenes/builtin/builtin.h"
@@ -19,15 +16,22 @@ namespace {
 
 struct Formula {
   const char* preset;
-  std::string text;
+  const char* text;
 };
 
-std::vector<Formula> formulas() {
-  std::ifstream file(std::string(TRUESHADE_SOURCE_DIR) + "/tests/programs/models/light_volumes.glsl");
-  std::stringstream light_volumes;
-  light_volumes << file.rdbuf();
-  return {{"many-lights", kManyLights}, {"light-volumes", light_volumes.str()}};
+// The preset light-volumes, for lights of every type.
+constexpr const char* kLightVolumes = R"glsl(
+vec3 light(Surface s, Light l, View v) {
+  if (l.type == light_type_ambient) return s.albedo.rgb * l.color;
+  vec3 D = l.position - s.position;
+  float d = length(D), r = d > 0.0 ? 1.0 / d : 0.0, f = 1.0 - d / l.range, a = dot(s.normal, D);
+  if (l.type == light_type_directional) a = dot(s.normal, -l.direction), r = 1.0, f = 1.0;
+  if (!(a > 0.0) || !(f > 0.0)) return vec3(0.0);
+  return (s.albedo.rgb * (a * r)) * (l.color * f);
 }
+)glsl";
+
+constexpr Formula kFormulas[] = {{"many-lights", kManyLights}, {"light-volumes", kLightVolumes}};
 
 struct Way {
   const char* what;
@@ -92,7 +96,7 @@ TEST_CASE("A program that states a preset's formula blends the preset's frame, b
   for (const char* name : {"city,objects=300,lights=60", "cornell", "atrium,lights=32,glass=1"}) {
     const Scene scene = builtin_scene(name);
     const PreparedScene prepared(scene);
-    for (const Formula& formula : formulas())
+    for (const Formula& formula : kFormulas)
       for (const Way& way : kWays)
         for (const Format target : {Format::rgba8, Format::rgba16f, Format::rgba32f}) {
           std::vector<std::string> planes{"light.0", "light.2"};
