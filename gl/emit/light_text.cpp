@@ -12,7 +12,7 @@ namespace {
 /// The names outside functions that shaders of this folder have before a light program's text.
 constexpr const char* kOwnNames =
     "float world_position, world_normal, color, base, texcoord, along_u, along_v, ids, alpha_cutoff, double_sided, "
-    "normal_scale, materials, lights, light_count, eye, view_axis, clip_from_world, picture_place, position_plane, "
+    "normal_scale, materials, lights, light_count, drawn_light, eye, view_axis, clip_from_world, picture_place, position_plane, "
     "normal_plane, albedo_plane, uv_plane, specular_plane, emission_plane, object_plane, material_plane, depth_plane, "
     "world_from_clip, ndc_from_window, ndc_origin, depth_to_ndc, target, color_map, specular_map, normal_map, "
     "metallic_roughness_map, emission_map, occlusion_map, color_texcoord, specular_texcoord, normal_texcoord, "
