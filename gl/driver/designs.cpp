@@ -34,7 +34,7 @@ struct GlPeer::Work {
   GlVertexArray none;
   VolumeBatches volumes;  ///< of deferred_volumes
   GlTexelBuffer tile_ranges, tile_records;
-  GlBuffer parameters;  ///< a light program's block; none where it has none
+  GlBuffer parameters;            ///< a light program's block; none where it has none
   std::vector<float> depths;      ///< read back, row 0 at the bottom
   std::vector<uint16_t> normals;  ///< and RGBA halves
 

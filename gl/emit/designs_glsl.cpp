@@ -59,7 +59,7 @@ ProgramDraw program_draw(GlDesign design) {
     case GlDesign::tiled_thin:
       return {Kind::sum, what, "flat in ivec2 range;\n", "", "range.x", "range.y"};
     case GlDesign::forward_plus:
-      return {Kind::sum, what, "uniform usamplerBuffer tiles;\nuniform int tile_size;\nuniform int columns;\n",
+      return {Kind::sum,       what,    "uniform usamplerBuffer tiles;\nuniform int tile_size;\nuniform int columns;\n",
               kTileOfFragment, "first", "end"};
     case GlDesign::forward_multipass:
       return {Kind::pass, what, "uniform int drawn_light;  // -1: none, for a scene without lights\n"};

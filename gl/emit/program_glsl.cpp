@@ -170,8 +170,8 @@ std::string one_light_text(const Pipeline& p, const programs::LightOutline& has,
   if (!pass)
     return light + (beyond.empty() ? "" : "  if (" + beyond + ") discard;\n") + fresh + "  sum = ts_added(s, l, v);\n";
   return light + is_beyond + (beyond.empty() ? "" : "  if (beyond && " + draw.light + " > 0) discard;\n") + fresh +
-         "  vec3 added = ts_added(s, l, v);\n  if (" + draw.light + " > 0)\n    sum = added;\n  else if (" + draw.light +
-         " == 0" + (beyond.empty() ? "" : " && !beyond") + " && added != vec3(0.0))\n    sum += added;\n";
+         "  vec3 added = ts_added(s, l, v);\n  if (" + draw.light + " > 0)\n    sum = added;\n  else if (" +
+         draw.light + " == 0" + (beyond.empty() ? "" : " && !beyond") + " && added != vec3(0.0))\n    sum += added;\n";
 }
 
 std::string sum_text_of(const Pipeline& p, const programs::LightOutline& has, const ProgramDraw& draw) {

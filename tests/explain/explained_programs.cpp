@@ -109,14 +109,14 @@ TEST_CASE("an explanation ends in the stored pixel of frames that a light progra
   for (const char* name : {"cornell", "city,objects=200,lights=40", "lecture"}) {
     const Scene scene = varied(name);
     for (size_t i = 0; i < programs.size(); ++i)
-      for (const Strategy strategy : {Strategy::deferred_loop, Strategy::forward_loop, Strategy::deferred_volumes,
-                                      Strategy::forward_multipass}) {
+      for (const Strategy strategy :
+           {Strategy::deferred_loop, Strategy::forward_loop, Strategy::deferred_volumes, Strategy::forward_multipass}) {
         Pipeline pipeline = pipeline_of(programs[i]);
         pipeline.strategy = strategy;
         pipeline.target =
             kTargetFormats[(i + (strategy == Strategy::forward_loop ? 1 : 0)) % std::size(kTargetFormats)];
-        pipeline.transparency.mode = i % 3 == 1 && !is_forward(strategy) ? TransparencyMode::into_albedo
-                                                                                       : TransparencyMode::after_lights;
+        pipeline.transparency.mode =
+            i % 3 == 1 && !is_forward(strategy) ? TransparencyMode::into_albedo : TransparencyMode::after_lights;
         if (i % 4 == 3) pipeline.light_volumes.point = LightExtent::unbounded;
         if (i % 4 == 2) pipeline.light_volumes.point = LightExtent::box, pipeline.light_volumes.base = i % 8 == 2;
         INFO(name << ' ' << i << ' ' << name_of(strategy) << ' ' << info(pipeline.target).name);

@@ -77,8 +77,8 @@ void check(const ProgramDrawer& drawn, const Scene& scene, const Pipeline& pipel
 
 /// By all strategies.
 void check_all(const ProgramDrawer& drawn, const Scene& scene, Pipeline pipeline, double bound, bool relative) {
-  for (const Strategy strategy : {Strategy::deferred_loop, Strategy::forward_loop, Strategy::deferred_volumes,
-                                  Strategy::forward_multipass}) {
+  for (const Strategy strategy :
+       {Strategy::deferred_loop, Strategy::forward_loop, Strategy::deferred_volumes, Strategy::forward_multipass}) {
     pipeline.strategy = strategy;
     check(drawn, scene, pipeline, bound, relative);
   }

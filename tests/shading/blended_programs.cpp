@@ -118,9 +118,11 @@ vec3 light(Surface s, Light l, View v) {
   return s.albedo.rgb * l.color * (dot(normalize(d), s.normal) / (0.5 + dot(d, d))) - 0.01;
 }
 )glsl";
-constexpr const char* kFinish = "vec4 finish(Surface s, View v, vec3 sum) { return vec4(sum.gbr * s.albedo.a + 0.02, "
-                                "0.25 + 0.5 * sum.g); }\n";
-constexpr const char* kStart = "vec3 start(Surface s, View v) { return 0.1 * s.albedo.rgb + 0.001 * float(s.pixel_x); }\n";
+constexpr const char* kFinish =
+    "vec4 finish(Surface s, View v, vec3 sum) { return vec4(sum.gbr * s.albedo.a + 0.02, "
+    "0.25 + 0.5 * sum.g); }\n";
+constexpr const char* kStart =
+    "vec3 start(Surface s, View v) { return 0.1 * s.albedo.rgb + 0.001 * float(s.pixel_x); }\n";
 constexpr BlendTerm kOver{BlendEquation::add, BlendFactor::src_alpha, BlendFactor::one_minus_src_alpha};
 
 /// What the documented rule draws, a pixel and a light at a time, from frames of sums that have one light each.
