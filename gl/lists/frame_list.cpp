@@ -168,7 +168,7 @@ class FrameLister {
         for (const NamedValue& value : values_)
           if (value.name == v.name) pass.uniforms.push_back(value);
       }
-    if (plan.lights == DrawnLights::all && has_buffer(kParameters))
+    if (plan.frag != geometry_draw(pipeline_).frag && has_buffer(kParameters))
       pass.blocks.push_back({light_text_of(pipeline_)->outline.parameter_block, kParameters});
     return pass;
   }
