@@ -15,6 +15,7 @@
 #include "scenes/json/json_value.h"
 #include "scenes/light_models/light_models.h"
 #include "scenes/pipeline/presets.h"
+#include "scenes/pipeline/program_inputs.h"
 #include "shading/frame_memory.h"
 #include "shading/output/derived_planes.h"
 #include "shading/output/target.h"
@@ -130,7 +131,7 @@ void set_light_program(const PipelineOptions& options, LightProgram& program) {
 
 Pipeline pipeline_of(const PipelineOptions& options, const Scene& scene) {
   Pipeline pipeline = options.preset ? *preset_pipeline(*options.preset) : default_pipeline(scene);
-  if (options.light_shader) pipeline.light_volumes.point = pipeline.light_volumes.spot = LightExtent::range;
+  if (options.light_shader) end_at_range(pipeline.light_volumes);
   if (!scene.pipeline_text.empty())
     pipeline = pipeline_from_json(scene.pipeline_text, options.scene + ": /pipeline", pipeline);
   if (options.pipeline_file)

@@ -154,7 +154,6 @@ class Search {
     for (size_t i = 0; i < std::size(kStrategyNames); ++i) {
       Pipeline changed = frame_.pipeline;
       changed.strategy = Strategy(i);
-      if (frame_.pipeline.light_program.used() && blends_lights(changed.strategy)) continue;
       try_pipeline("the strategy " + std::string(kStrategyNames[i]), changed);
     }
     for (const Preset& preset : presets()) try_pipeline("the preset " + std::string(preset.name), preset.pipeline);

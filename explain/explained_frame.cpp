@@ -52,7 +52,6 @@ ExplainedFrame::ExplainedFrame(const Scene& of_scene, const Pipeline& of_pipelin
       volume_window(window_transform(volume_state, pipeline.width, pipeline.height, pipeline.profile)),
       target{pipeline.target, pipeline.profile, pipeline.gbuffer.half_round},
       transparency(draws_transparent(scene, pipeline) ? pipeline.transparency.mode : TransparencyMode::none) {
-  require_summed_lights(pipeline);
 }
 
 }  // namespace trueshade

@@ -99,10 +99,9 @@ uint32_t mesh_covers(const ExplainedFrame& frame, const Light& light, const Ligh
   return count;
 }
 
-/// What a light's draw hands to the blender: its term alone.
+/// What a light's draw hands to the blender: its term alone, finished.
 std::array<float, 4> source_of(const LightTotal& total, size_t light) {
-  const LightAtPixel& at = total.lights[light];
-  return received(total, at.fate == LightFate::adds ? at.term : std::array<float, 3>{});
+  return received(total, total.lights[light].term);
 }
 
 void draw_volumes(const ExplainedFrame& frame, const LitSurfaces& lit, LightTimes times, Drawing& drawing) {
@@ -122,7 +121,7 @@ void draw_passes(const ExplainedFrame& frame, const LitSurfaces& lit, LightTimes
   if (lit.covered) {
     const LightTotal& visible = lit.visible;
     std::array<float, 3> first = visible.start;
-    for (int n = lights > 0 && visible.lights[0].fate == LightFate::adds ? times[0] : 0; n > 0; --n)
+    for (int n = !visible.lights.empty() && visible.lights[0].fate == LightFate::adds ? times[0] : 0; n > 0; --n)
       for (size_t k = 0; k < 3; ++k) first[k] = first[k] + visible.lights[0].term[k];
     drawing.store(lights > 0 ? "the first draw, with light 0" : "a draw without lights", received(visible, first));
   }
@@ -133,7 +132,7 @@ void draw_passes(const ExplainedFrame& frame, const LitSurfaces& lit, LightTimes
     for (size_t layer = 0; layer < layers.size(); ++layer) {
       const LightTotal& of = *layers[layer];
       const std::string where = lit.tied.empty() ? "" : "surface " + std::to_string(layer) + " at this depth, ";
-      for (int n = inside_extent(frame.lights.table.row[i], of.surface) ? times[i] : 0; n > 0; --n)
+      for (int n = i < of.lights.size() && inside_extent(frame.lights.table.row[i], of.surface) ? times[i] : 0; n > 0; --n)
         drawing.draw(where, int64_t(i), kAddLight, source_of(of, i));
     }
 }
@@ -155,7 +154,7 @@ LitSurfaces lit_surfaces(const ExplainedFrame& frame, const PixelSurfaces& surfa
   out.covered = surfaces.covered;
   out.geometry = std::move(geometry);
   if (surfaces.covered) out.visible = lit(frame, frame.lights, surfaces.visible, surfaces.pixel);
-  for (size_t i = 0; i < out.geometry.size() && surfaces.covered; ++i)
+  for (size_t i = 0; i < out.geometry.size() && i < out.visible.lights.size(); ++i)
     if (out.geometry[i] == 0 && out.visible.lights[i].fate == LightFate::adds)
       out.visible.lights[i].fate = LightFate::not_drawn;
   for (const SurfacePlanes& tied : surfaces.tied) out.tied.push_back(lit(frame, frame.lights, tied, surfaces.pixel));

@@ -13,6 +13,7 @@
 #include "gl/driver/surface_uniforms.h"
 #include "gl/driver/volume_batches.h"
 #include "gl/emit/designs_glsl.h"
+#include "gl/emit/light_text.h"
 #include "oracle/exact_coverage.h"
 #include "oracle/matrices.h"
 
@@ -33,6 +34,7 @@ struct GlPeer::Work {
   GlVertexArray none;
   VolumeBatches volumes;  ///< of deferred_volumes
   GlTexelBuffer tile_ranges, tile_records;
+  GlBuffer parameters;            ///< a light program's block; none where it has none
   std::vector<float> depths;      ///< read back, row 0 at the bottom
   std::vector<uint16_t> normals;  ///< and RGBA halves
 
@@ -51,6 +53,8 @@ struct GlPeer::Work {
   void bin_lights();
   void begin_forward();
   void use_lighting();
+  GLuint light_texels();
+  void use_light_program(GLuint program);
   void light_deferred();
   void draw_volumes();
   void draw_multipass();
@@ -58,6 +62,14 @@ struct GlPeer::Work {
 };
 
 namespace {
+
+constexpr int kLightUnit = 11, kMaterialUnit = 12;  // those below belong to planes and lights, those above to maps
+
+/// With the planes that a light program reads.
+Pipeline with_planes(const Pipeline& p) {
+  const std::shared_ptr<const LightText> text = light_text_of(p);
+  return text == nullptr ? p : with_planes_of(p, text->reads);
+}
 
 GlslOptions lean_options(GlRenderer& renderer) {
   GlDraw draw;
@@ -73,14 +85,13 @@ GlslOptions lean_options(GlRenderer& renderer) {
 
 GlPeer::Work::Work(GlRenderer& r, const Pipeline& p, GlDesign d, int tile_size)
     : renderer(r),
-      pipeline(design_pipeline(p, d)),
+      pipeline(with_planes(design_pipeline(p, d))),
       design(d),
       tile(tile_size > 0                 ? tile_size
            : d == GlDesign::forward_plus ? 16
                                          : 32),
       options(lean_options(r)),
       planes(is_forward(d) ? std::vector<GlslPlane>{} : planes_of(pipeline, options)) {
-  require_no_light_program(p, "a design of the benchmark");
   renderer.context().make_current();
   check_limits(renderer.context(), pipeline, pipeline.width, pipeline.height);
   viewport = resolved_viewport(pipeline.geometry, pipeline.width, pipeline.height);
@@ -112,12 +123,13 @@ GlPeer::Work::Work(GlRenderer& r, const Pipeline& p, GlDesign d, int tile_size)
   if (!geometry_target.complete || !forward_target.complete)
     throw std::runtime_error("the driver cannot render to the planes of this design");
   none = make_vertex_array();
+  if (const std::vector<uint8_t> block = parameter_bytes(pipeline); !block.empty())
+    parameters = make_buffer(GL_UNIFORM_BUFFER, std::span<const uint8_t>(block));
   renderer.buffers().upload_instances(pipeline);
 }
 
 void GlPeer::Work::draw_surfaces(GLuint program, Surfaces which) {
   glUseProgram(program);
-  constexpr int kMaterialUnit = 12;  // those below belong to planes and lights, those above to maps
   if (reads_materials(pipeline.light_model))
     bind_texture(program, "materials", kMaterialUnit, GL_TEXTURE_BUFFER, renderer.buffers().material_texels(pipeline));
   if (options.instance_uniforms)
@@ -176,20 +188,35 @@ void GlPeer::Work::bin_lights() {
   tile_records = make_texel_buffer(tiles.records);
 }
 
+GLuint GlPeer::Work::light_texels() {
+  return pipeline.light_program.used() ? renderer.buffers().program_light_texels()
+                                       : renderer.buffers().light_texels(pipeline.light_model);
+}
+
+/// What a light program reads beside surfaces and lights.
+void GlPeer::Work::use_light_program(GLuint program) {
+  if (!pipeline.light_program.used()) return;
+  bind_texture(program, "materials", kMaterialUnit, GL_TEXTURE_BUFFER, renderer.buffers().material_texels(pipeline));
+  set_clip_rows(program, scene(), pipeline);
+  if (parameters != 0) bind_block(program, light_text_of(pipeline)->outline.parameter_block.c_str(), parameters);
+}
+
 /// Binds whatever the lighting program reads; samplers it does not have are no harm.
 void GlPeer::Work::use_lighting() {
   glUseProgram(lighting);
   int unit = bind_surface(lighting, planes, textures, depth, scene(), pipeline, 0, 0);
   if (is_binned(design)) {
     bind_texture(lighting, "tiles", unit++, GL_TEXTURE_BUFFER, tile_ranges.texture);
-    bind_texture(lighting, "records", unit, GL_TEXTURE_BUFFER, tile_records.texture);
+    const char* const records = pipeline.light_program.used() ? "lights" : "records";
+    bind_texture(lighting, records, unit, GL_TEXTURE_BUFFER, tile_records.texture);
     set_uniform(lighting, "tile_size", tile);
     set_uniform(lighting, "columns", (pipeline.width + tile - 1) / tile);
     set_uniform(lighting, "image_size", std::array<float, 2>{float(pipeline.width), float(pipeline.height)});
   } else {
-    bind_texture(lighting, "lights", unit, GL_TEXTURE_BUFFER, renderer.buffers().light_texels(pipeline.light_model));
+    bind_texture(lighting, "lights", unit, GL_TEXTURE_BUFFER, light_texels());
     set_uniform(lighting, "light_count", int(scene().lights.size()));
   }
+  use_light_program(lighting);
 }
 
 void GlPeer::Work::light_deferred() {
@@ -211,6 +238,8 @@ void GlPeer::Work::draw_volumes() {
   if (pipeline.light_volumes.base) {
     glUseProgram(base);
     bind_surface(base, planes, textures, depth, scene(), pipeline, 0, 0);
+    bind_texture(base, "lights", kLightUnit, GL_TEXTURE_BUFFER, light_texels());
+    use_light_program(base);
     glBindVertexArray(none);
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
@@ -246,7 +275,7 @@ void GlPeer::Work::begin_forward() {
 void GlPeer::Work::draw_multipass() {
   const int lights = int(scene().lights.size());
   for (int i = lights == 0 ? -1 : 0; i < std::max(lights, 0); ++i) {
-    set_uniform(lighting, "light", i);
+    set_uniform(lighting, light_uniform(pipeline), i);
     draw_scene(lighting);
     glDepthMask(GL_FALSE);
     glDepthFunc(GL_EQUAL);
@@ -261,8 +290,9 @@ void GlPeer::Work::draw_over() {
   set_geometry_state(pipeline.geometry, viewport, 0, 0);
   glUseProgram(over);
   const int unit = bind_surface(over, planes, textures, depth, scene(), pipeline, 0, 0);
-  bind_texture(over, "lights", unit, GL_TEXTURE_BUFFER, renderer.buffers().light_texels(pipeline.light_model));
+  bind_texture(over, "lights", unit, GL_TEXTURE_BUFFER, light_texels());
   set_uniform(over, "light_count", int(scene().lights.size()));
+  use_light_program(over);
   glDepthMask(GL_FALSE);
   set_blend_state(pipeline.transparency.blend);
   draw_surfaces(over, Surfaces::transparent);

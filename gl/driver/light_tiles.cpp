@@ -6,6 +6,7 @@
 
 #include "oracle/exact_coverage.h"
 #include "gl/emit/glsl.h"
+#include "gl/emit/light_text.h"
 #include "gl/driver/scene_buffers.h"
 #include "gl/driver/tile_surfaces.h"
 #include "oracle/matrices.h"
@@ -111,8 +112,10 @@ LightTiles light_tiles(const Scene& scene, const Pipeline& pipeline, std::span<c
   tiles.columns = (pipeline.width + tile - 1) / tile;
   tiles.rows = (pipeline.height + tile - 1) / tile;
   const std::vector<TileSurface> surfaces = tile_surfaces(scene, pipeline, depth, normals, tile);
-  const std::vector<float> lights = light_records(scene, pipeline.light_model);
-  const auto floats = size_t(4 * LightLayout(pipeline.light_model).texels());
+  const bool program = pipeline.light_program.used();
+  const std::vector<float> lights =
+      program ? program_light_records(scene) : light_records(scene, pipeline.light_model);
+  const auto floats = size_t(4 * (program ? kProgramLightTexels : LightLayout(pipeline.light_model).texels()));
   uint32_t next = 0;
   for (const std::vector<uint32_t>& list : lists(scene, pipeline, tiles, surfaces)) {
     tiles.first.push_back(next);

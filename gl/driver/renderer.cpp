@@ -206,7 +206,7 @@ class LightPass {
     begin_forward();
     if (lights_ > 0) show(-1, t_.forward.framebuffer);
     for (int light = lights_ == 0 ? -1 : 0; light < lights_; ++light) {
-      set_uniform(programs_.light, "light", light);
+      set_uniform(programs_.light, light_uniform(pipeline_), light);
       buffers_.draw_instances(solid());
       show(light, t_.forward.framebuffer);
       glDepthMask(GL_FALSE);
@@ -266,7 +266,7 @@ class LightPass {
       const LightExtent extent = drawn_extent(light, pipeline_.light_volumes);
       set_volume_state(pipeline_, is_mesh(extent), draw_.shift_x, draw_.shift_y);
       set_blend_state(blend);
-      set_uniform(programs_.light, "light", i);
+      set_uniform(programs_.light, light_uniform(pipeline_), i);
       if (is_mesh(extent))
         draw_mesh(meshes[extent], light);
       else

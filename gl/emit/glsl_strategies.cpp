@@ -106,13 +106,37 @@ std::string light_loop_text(const Pipeline& p, const std::string& buffer, const 
          "; ++i)\n    sum += " + bounded_call_text(p, buffer, "i") + ";\n" + target_text(p.light_model, "sum");
 }
 
-void set_light_shaders(const Pipeline& pipeline, const GlslOptions& options, GlslShaders& shaders) {
-  if (pipeline.light_program.used()) {
-    shaders.light_vert =
-        is_forward(pipeline.strategy) ? shaders.geometry_vert : fullscreen_vertex_text(options.version);
-    shaders.light_frag = program_fragment_text(pipeline, options);
-    return;
+namespace {
+
+void set_program_shaders(const Pipeline& p, const GlslOptions& options, GlslShaders& shaders) {
+  using Kind = ProgramDraw::Kind;
+  const std::string one = std::string("uniform int ") + kDrawnLight + ";  // the draw's; -1: a scene without lights\n";
+  const auto text = [&](Kind kind, const char* what, const std::string& declared) {
+    return program_fragment_text(p, options, {kind, std::string(what) + " by a light program", declared});
+  };
+  shaders.light_vert = is_forward(p.strategy) ? shaders.geometry_vert : fullscreen_vertex_text(options.version);
+  switch (p.strategy) {
+    case Strategy::forward_multipass:
+      shaders.light_frag = text(Kind::pass, "the scene under one light, added to the target", one);
+      break;
+    case Strategy::forward_loop:
+      shaders.light_frag = text(Kind::sum, "the scene, all lights summed in order", "");
+      break;
+    case Strategy::deferred_volumes:
+      shaders.light_vert = volume_vertex_text(options);
+      shaders.light_frag = text(Kind::light, "one light over the G-buffer, blended into the target", one);
+      if (p.light_volumes.base) shaders.base_frag = text(Kind::base, "what a surface has without lights", "");
+      break;
+    case Strategy::deferred_loop:
+      shaders.light_frag = text(Kind::sum, "light pass: sums all lights in order, one store a pixel", "");
+      break;
   }
+}
+
+}  // namespace
+
+void set_light_shaders(const Pipeline& pipeline, const GlslOptions& options, GlslShaders& shaders) {
+  if (pipeline.light_program.used()) return set_program_shaders(pipeline, options, shaders);
   switch (pipeline.strategy) {
     case Strategy::forward_multipass:
     case Strategy::forward_loop:

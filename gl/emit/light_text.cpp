@@ -25,7 +25,6 @@ std::shared_ptr<const LightText> light_text_of(const Pipeline& pipeline) {
   constexpr size_t kMost = 64;  // programs of a process; then all are compiled anew
   const LightProgram& program = pipeline.light_program;
   if (!program.used()) return nullptr;
-  require_summed_lights(pipeline);
   if (program.text.empty())
     throw Error(ErrorKind::usage, program.file, "the text of this light program is not here", "give it with its name");
   std::shared_ptr<const LightText> out;

@@ -28,15 +28,35 @@ ProgramReads surface_reads(const Pipeline& pipeline, const GlslOptions& options)
 /// The bytes of the program's block of parameters, by std140; empty where it has none.
 std::vector<uint8_t> parameter_bytes(const Pipeline& pipeline);
 
-/// The fragment shader of deferred-loop or forward-loop under a light program.
-std::string program_fragment_text(const Pipeline& pipeline, const GlslOptions& options);
+/// The uniform with the number of a draw's light, -1 where there is none. Under a program `light` is a function.
+inline constexpr const char* kDrawnLight = "drawn_light";
+inline const char* light_uniform(const Pipeline& pipeline) {
+  return pipeline.light_program.used() ? kDrawnLight : "light";
+}
+
+/// A draw whose fragment shader runs a light program.
+struct ProgramDraw {
+  enum class Kind : uint8_t {
+    sum,    ///< of all lights from `first` to `end`
+    pass,   ///< one light over the scene; the first with what the sum starts from
+    base,   ///< what the sum starts from
+    light,  ///< one light alone
+  } kind;
+  std::string what;                              ///< the draw in words
+  std::string declared = {};                     ///< variables that `before`, `first`, `end` or `light` read
+  std::string before = {};                       ///< statements
+  std::string first = "0", end = "light_count";  ///< of the buffer `lights`
+  std::string light = kDrawnLight;               ///< of the buffer
+};
+
+std::string program_fragment_text(const Pipeline& pipeline, const GlslOptions& options, const ProgramDraw& draw);
 
 /// What stands before the user's text in such a shader, or the whole of another.
 std::string_view own_text(std::string_view shader);
 
 /// RGBA32F texels of a light in `lights` under a light program: position, range; direction, type; colour, cone;
 /// attenuation, penumbra; ambient, spot exponent; cos_inner, cos_outer, cone_scale, cone_offset;
-/// penumbra_slope, cutoff_slope, 0, 0.
+/// penumbra_slope, cutoff_slope, index, 0.
 inline constexpr int kProgramLightTexels = 7;
 
 /// Where Vulkan binds the block of parameters, in set 0.

@@ -30,7 +30,7 @@ Light ts_light_of(int i) {
   vec4 t6 = texelFetch(lights, 7 * i + 6);
   Light l;
   l.type = uint(t1.w);
-  l.index = uint(i);
+  l.index = uint(t6.z);
   l.position = t0.xyz;
   l.range = t0.w;
   l.direction = t1.xyz;
@@ -129,22 +129,25 @@ std::string surface_fields_text(const Pipeline& p, const ProgramReads& reads) {
          "  for (int k = 0; k < 4; ++k) s.user[k] = vec4(0.0);\n";
 }
 
-/// Surfaces whose material is unlit are done.
-constexpr const char* kUnlit = R"(  if (texelFetch(materials, 3 * int(s.material) - 1).z == 1.0) {
-    target = albedo;
-    return;
-  }
-)";
+/// Surfaces whose material is unlit are done: the first draw gives them their albedo, and lights leave them out.
+std::string unlit_text(const ProgramDraw& draw) {
+  using Kind = ProgramDraw::Kind;
+  const std::string leaves = draw.kind == Kind::pass    ? "    if (" + draw.light + " > 0) discard;\n"
+                             : draw.kind == Kind::light ? "    discard;\n"
+                                                        : "";
+  return "  if (texelFetch(materials, 3 * int(s.material) - 1).z == 1.0) {\n" + leaves +
+         "    target = albedo;\n    return;\n  }\n";
+}
 static_assert(kMaterialTexels == 3);
 
-/// Leaves the loop's body where the light's extent does not have the pixel.
-std::string extent_text_of(const Pipeline& p) {
+/// True where the extent of the light `l` does not have the pixel; empty where no extent ends.
+std::string beyond_text_of(const Pipeline& p) {
   const RangeLimits limits = limits_range(p);
   if (!limits.any()) return {};
   const char* bounded = limits.point && limits.spot ? "l.type == light_type_point || l.type == light_type_spot"
                         : limits.point              ? "l.type == light_type_point"
                                                     : "l.type == light_type_spot";
-  return std::string("    if ((") + bounded + ") && !(distance(l.position, P) < l.range)) continue;\n";
+  return std::string("(") + bounded + ") && !(distance(l.position, P) < l.range)";
 }
 
 /// The file's variables as the functions before start() leave them, whatever the light.
@@ -154,14 +157,36 @@ std::string order_text(const programs::LightOutline& has) {
          (has.defines_reaches ? "  ts_reaches(s, ts_light_of(0), v);\n" : "");
 }
 
-std::string sum_text_of(const Pipeline& p, const programs::LightOutline& has) {
-  const bool kept = !has.variables.empty();
+/// Adds all lights.
+std::string loop_text(const Pipeline& p, const programs::LightOutline& has, const ProgramDraw& draw) {
+  const std::string beyond = beyond_text_of(p);
+  return "  for (int i = " + draw.first + "; i < " + draw.end + "; ++i) {\n    Light l = ts_light_of(i);\n" +
+         (beyond.empty() ? "" : "    if (" + beyond + ") continue;\n") +
+         (has.variables.empty() ? "" : "    ts_fresh();\n") +
+         "    vec3 added = ts_added(s, l, v);\n    if (added != vec3(0.0)) sum += added;\n  }\n";
+}
+
+/// Brings in the light of a draw of its own: the sum is what it gives. A pass with the first light adds it.
+std::string one_light_text(const Pipeline& p, const programs::LightOutline& has, const ProgramDraw& draw) {
+  const bool pass = draw.kind == ProgramDraw::Kind::pass;
+  const std::string fresh = has.variables.empty() ? "" : "  ts_fresh();\n", beyond = beyond_text_of(p);
+  const std::string light = "  Light l = ts_light_of(max(" + draw.light + ", 0));\n";
+  const std::string is_beyond = beyond.empty() ? "" : "  bool beyond = " + beyond + ";\n";
+  if (!pass)
+    return light + (beyond.empty() ? "" : "  if (" + beyond + ") discard;\n") + fresh + "  sum = ts_added(s, l, v);\n";
+  return light + is_beyond + (beyond.empty() ? "" : "  if (beyond && " + draw.light + " > 0) discard;\n") + fresh +
+         "  vec3 added = ts_added(s, l, v);\n  if (" + draw.light + " > 0)\n    sum = added;\n  else if (" +
+         draw.light + " == 0" + (beyond.empty() ? "" : " && !beyond") + " && added != vec3(0.0))\n    sum += added;\n";
+}
+
+std::string sum_text_of(const Pipeline& p, const programs::LightOutline& has, const ProgramDraw& draw) {
+  using Kind = ProgramDraw::Kind;
+  const bool kept = !has.variables.empty(), starts = has.defines_start && draw.kind != Kind::light;
   std::string text = "  View v = ts_view();\n";
   if (kept) text += "  ts_keep();\n";
-  text += has.defines_start ? order_text(has) + "  vec3 sum = ts_start(s, v);\n" : "  vec3 sum = vec3(0.0);\n";
-  text += "  for (int i = 0; i < light_count; ++i) {\n    Light l = ts_light_of(i);\n" + extent_text_of(p) +
-          (kept ? "    ts_fresh();\n" : "") +
-          "    vec3 added = ts_added(s, l, v);\n    if (added != vec3(0.0)) sum += added;\n  }\n";
+  text += starts ? order_text(has) + "  vec3 sum = ts_start(s, v);\n" : "  vec3 sum = vec3(0.0);\n";
+  if (draw.kind == Kind::sum) text += loop_text(p, has, draw);
+  if (draw.kind == Kind::pass || draw.kind == Kind::light) text += one_light_text(p, has, draw);
   if (!has.defines_finish)
     return text + "  target = vec4(sum, " + (p.light_model.alpha_from_albedo ? "albedo.a" : "1.0") + ");\n";
   return text + order_text(has) + (kept && has.defines_start ? "  ts_start(s, v);\n" : "") +
@@ -170,21 +195,21 @@ std::string sum_text_of(const Pipeline& p, const programs::LightOutline& has) {
 
 }  // namespace
 
-std::string program_fragment_text(const Pipeline& p, const GlslOptions& options) {
+std::string program_fragment_text(const Pipeline& p, const GlslOptions& options, const ProgramDraw& draw) {
   const std::shared_ptr<const LightText> program = light_text_of(p);
   const programs::LightOutline& has = program->outline;
   const ProgramReads reads = surface_reads(p, options);
   const bool forward = is_forward(p.strategy);
-  std::string text = glsl_header(
-      options.version, forward ? "the scene, all lights summed in order by a light program"
-                               : "light pass: sums all lights in order by a light program, one store a pixel");
+  std::string text = glsl_header(options.version, draw.what);
   text += forward ? varyings_text(p, options, "in") + viewer_text(p.light_model) : surface_uniforms_text(p, options);
   if (options.unlit || (forward && reads_materials(p.light_model))) text += "uniform samplerBuffer materials;\n";
-  text += kUniforms + std::string(programs::light_interface()) + kLightOf + declared_text(has) + "\nvoid main() {\n";
+  text += draw.declared + kUniforms + std::string(programs::light_interface()) + kLightOf + declared_text(has) +
+          "\nvoid main() {\n";
   text += forward ? "  vec3 P = world_position;\n  vec3 stored_normal = " + normal_text(p, options) + ";\n" +
                         material_text(p.light_model, options)
                   : read_surface_text(p, options);
-  text += surface_fields_text(p, reads) + (options.unlit ? kUnlit : "") + sum_text_of(p, has) + "}\n";
+  text += surface_fields_text(p, reads) + (options.unlit ? unlit_text(draw) : "") + draw.before +
+          sum_text_of(p, has, draw) + "}\n";
   const std::string& file = p.light_program.text;
   return text + std::string(kUserText) + file + (file.ends_with('\n') ? "" : "\n") + tail_text(has);
 }

@@ -76,6 +76,7 @@ constexpr Meaning kMeanings[] = {
     {"lights", "RGBA32F texels, light_layout says what a light is"},
     {"light_count", "how many lights there are"},
     {"light", "the draw's, counted from 0"},
+    {kDrawnLight, "the draw's, counted from 0"},
     {"mesh", "1: corners are in the world, 0: a quad over the image"},
     {"eye", "the camera's position in the world"},
     {"view_axis", "the view's z axis in the world, towards the viewer, of unit length"},
@@ -133,7 +134,7 @@ std::string light_layout(const Pipeline& pipeline) {
     return strings_of({"x, y, z: position; w: range", "x, y, z: the way the light travels; w: type, as in the shader",
                        "r, g, b: linear colour times intensity; w: cone, radians",
                        "k0, k1, k2: attenuation; w: penumbra, radians", "r, g, b: its ambient share; w: spot_exponent",
-                       "cos_inner, cos_outer, cone_scale, cone_offset", "penumbra_slope, cutoff_slope, 0, 0"});
+                       "cos_inner, cos_outer, cone_scale, cone_offset", "penumbra_slope, cutoff_slope, index, 0"});
   std::vector<std::string> texels{
       "x, y, z: position (directional: minus the direction it travels); "
       "w: 0 ambient, 1 directional, 2 point, 2.5 spot without a cone, 3 spot",

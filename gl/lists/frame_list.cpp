@@ -168,7 +168,7 @@ class FrameLister {
         for (const NamedValue& value : values_)
           if (value.name == v.name) pass.uniforms.push_back(value);
       }
-    if (plan.lights == DrawnLights::all && has_buffer(kParameters))
+    if (plan.frag != geometry_draw(pipeline_).frag && has_buffer(kParameters))
       pass.blocks.push_back({light_text_of(pipeline_)->outline.parameter_block, kParameters});
     return pass;
   }
@@ -283,7 +283,7 @@ class FrameLister {
       return add_scene_passes("lights", plans[0], solid_, {"target"}, "light_depth", true, {});
     for (int light = lights == 0 ? -1 : 0; light < lights; ++light) {
       add_scene_passes(light <= 0 ? "first light" : "other lights", plans[light <= 0 ? 0 : 1], solid_, {"target"},
-                       "light_depth", light <= 0, {{"light", {double(light)}}});
+                       "light_depth", light <= 0, {{light_uniform(pipeline_), {double(light)}}});
       if (!list_.passes.back().draws.empty()) list_.passes.back().draws.back().light = light;
     }
   }
@@ -337,11 +337,11 @@ class FrameLister {
     if (!all.empty()) list_.buffers.push_back({"light_vertices", bytes_of(std::span<const glm::vec3>(all)), false});
   }
 
-  static ListedDraw quad_draw(int light) {
+  ListedDraw quad_draw(int light) const {
     ListedDraw draw;
     draw.vertices = "quad", draw.count = 4;
     draw.uniforms.push_back({"mesh", {0}});
-    if (light >= 0) draw.uniforms.push_back({"light", {double(light)}});
+    if (light >= 0) draw.uniforms.push_back({light_uniform(pipeline_), {double(light)}});
     draw.light = light;
     return draw;
   }

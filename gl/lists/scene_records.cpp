@@ -200,8 +200,9 @@ std::vector<float> light_records(const Scene& scene, const LightModel& model) {
 std::vector<float> program_light_records(const Scene& scene) {
   std::vector<float> out;
   out.reserve(4 * size_t(kProgramLightTexels) * scene.lights.size());
-  for (const Light& light : scene.lights) {
+  for (size_t i = 0; i < scene.lights.size(); ++i) {
     const auto add = [&](const glm::vec3& v, float w) { out.insert(out.end(), {v.x, v.y, v.z, w}); };
+    const Light& light = scene.lights[i];
     const LightCone cone(light);
     add(light.position, light.range);
     add(light.direction, float(light.type));
@@ -209,7 +210,7 @@ std::vector<float> program_light_records(const Scene& scene) {
     add(light.attenuation, light.penumbra_rad);
     add(light.ambient, light.spot_exponent);
     add({cone.cos_inner, cone.cos_outer, cone.scale}, cone.offset);
-    add({cone.penumbra_slope, cone.cutoff_slope, 0.0f}, 0.0f);
+    add({cone.penumbra_slope, cone.cutoff_slope, float(i)}, 0.0f);
   }
   if (out.empty()) out.resize(4 * size_t(kProgramLightTexels));
   return out;

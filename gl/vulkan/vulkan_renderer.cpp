@@ -283,8 +283,9 @@ class VulkanDrawing {
   }
 
   static bool is_of_light(const ListedDraw& d) {
-    const NamedValue* light = value_of(d.uniforms, "light");
-    return light != nullptr && light->numbers[0] >= 0;
+    for (const char* name : {"light", oracle::kDrawnLight})
+      if (const NamedValue* light = value_of(d.uniforms, name); light != nullptr) return light->numbers[0] >= 0;
+    return false;
   }
 
   /// The target where no light is drawn, as there is none or nothing that it lights.

@@ -64,6 +64,7 @@ BlendingJudge::BlendingJudge(const Scene& scene, const Pipeline& pipeline, const
                        blend_.mask[0] && blend_.mask[1] && blend_.mask[2]),
       keeps_dark_(!color_.layout.srgb && blend_.enabled && blend_.rgb == kAccumulate &&
                   (!blend_.mask[3] || color_.channels < 4)) {
+  if (outputs_.program() != nullptr) require_planes_of(*outputs_.program(), capture);
   const size_t pixels = size_t(pipeline.width) * size_t(pipeline.height);
   covered_.resize(pixels);
   surfaces_.resize(pixels);
@@ -136,10 +137,13 @@ StageVerdict BlendingJudge::verdict(std::string_view stage, const Image* last) {
 void BlendingJudge::judge_batch() {
   const size_t count = batch_.size();
   const std::span<const Light> lights = std::span(scene_.lights).subspan(size_t(first_), count);
-  outputs_.set_lights(lights);
+  outputs_.set_lights(lights, uint32_t(first_));
   extents_.assign(count, LightExtent::unbounded);
   outlines_.clear();
   outlines_.resize(count);
+  if (multipass_ && outputs_.program() != nullptr)  // a pass leaves out what is beyond the light's range
+    for (size_t k = 0; k < count; ++k)
+      if (drawn_extent(lights[k], pipeline_.light_volumes) != LightExtent::unbounded) extents_[k] = LightExtent::range;
   if (!multipass_)
     parallel_for(int(count), 0, [&](int k) {
       const Light& light = lights[size_t(k)];
@@ -210,7 +214,7 @@ void BlendingJudge::judge_pixel(int x, int y, RowWork& work) {
 /// only one there is added its nominal codes.
 bool BlendingJudge::as_predicted(int x, int y, size_t i, size_t j, const FragmentCount& count,
                                  const RowWork& work) const {
-  if (!seen_ || !keeps_dark_) return false;
+  if (!seen_ || !keeps_dark_ || !outputs_.are_terms_outputs()) return false;
   const std::span<const TiedSurface> tied = tied_at(x, y);
   const bool covered = covered_[at(x, y)] != 0;
   const uint8_t *old = before(i).texel(x, y), *now = batch_[i].texel(x, y);
@@ -230,6 +234,8 @@ bool BlendingJudge::as_predicted(int x, int y, size_t i, size_t j, const Fragmen
 
 /// How often the visible surface is a fragment of the light: what covers it, or a comparison with the light's range.
 FragmentCount BlendingJudge::visible_count(const ShadedSurface& surface, size_t i, const FragmentCount& count) const {
+  if (multipass_ && first_ == 0) return count;
+  if (outputs_.is_unlit(surface)) return {0, 0, 0};
   if (extents_[i] != LightExtent::range) return count;
   const LightOutputs::InRange in = outputs_.in_range(surface, uint32_t(i));
   return {uint8_t(in.surely), uint8_t(in.perhaps), uint8_t(in.nominally)};
@@ -247,7 +253,8 @@ void BlendingJudge::count_lights(int x, int y, size_t i, const FragmentCount& co
     const FragmentCount drawn = visible_count(surfaces_[at(x, y)], i, count);
     add(surfaces_[at(x, y)], drawn.least, drawn.most);
   }
-  for (const TiedSurface& t : tied_at(x, y)) add(t.surface, 0, 1);  // once for the visible surface, or for each
+  for (const TiedSurface& t : tied_at(x, y))
+    add(t.surface, 0, visible_count(t.surface, i, {1, 1, 1}).most);  // once for the visible surface, or for each
 }
 
 void BlendingJudge::check_count(int x, int y) {
@@ -269,8 +276,11 @@ void BlendingJudge::fragments(int x, int y, size_t i, size_t j, const FragmentCo
   };
   const auto add_tied = [&](bool before) {
     for (size_t t = 0; t < tied.size(); ++t)
-      if (const int sure = tied[t].certain ? 1 : 0; tied[t].before == before)
-        work.fragments.push_back({output(tied[t].surface, work.lit[t]), sure, 1, sure, PixelClass::depth_tie});
+      if (const int sure = tied[t].certain ? 1 : 0; tied[t].before == before) {
+        const FragmentCount drawn = visible_count(tied[t].surface, i, {1, 1, 1});
+        work.fragments.push_back({output(tied[t].surface, work.lit[t]), std::min<int>(sure, drawn.least), drawn.most,
+                                  std::min<int>(sure, drawn.nominal), PixelClass::depth_tie});
+      }
   };
   add_tied(true);
   if (covered_[at(x, y)] != 0) {

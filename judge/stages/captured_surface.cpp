@@ -195,4 +195,12 @@ Bounded doubled_normal(const Bounded& fetched, const Arithmetic& arithmetic) {
   return difference(arithmetic, {2 * fetched.value, 2 * fetched.error}, {1, 0});
 }
 
+void require_planes_of(const ProgramBounds& program, const Capture& capture) {
+  for (const auto& [field, plane] :
+       {std::pair("surface.uv", "uv"), {"surface.material", "id.material"}, {"surface.object", "id.object"}})
+    if (program.reads(field) && capture.plane(plane) == nullptr)
+      throw Error(ErrorKind::bad_input, capture.name + ": plane " + plane, "is missing",
+                  "the light program reads " + std::string(field));
+}
+
 }  // namespace trueshade::oracle

@@ -41,6 +41,9 @@ class CapturedSurface {
   Matrix4 world_from_clip_{};
 };
 
+/// Error(bad_input) naming a plane that a light program reads and the capture lacks.
+void require_planes_of(const ProgramBounds& program, const Capture& capture);
+
 /// A component of a normal as shaders read it from a fixed-point plane: 2 c - 1. Doubling is exact, contracted or not
 /// the difference is rounded once.
 Bounded doubled_normal(const Bounded& fetched, const Arithmetic& arithmetic);

@@ -167,11 +167,7 @@ void LightingJudge::judge_layered(int x, int y, const Tile& tile, RowTally& row)
 
 void LightingJudge::take_program(const Capture& capture) {
   program_.emplace(scene_, pipeline_, profile_.arithmetic);
-  for (const auto& [field, plane] :
-       {std::pair("surface.uv", "uv"), {"surface.material", "id.material"}, {"surface.object", "id.object"}})
-    if (program_->reads(field) && capture.plane(plane) == nullptr)
-      throw Error(ErrorKind::bad_input, capture.name + ": plane " + plane, "is missing",
-                  "the light program reads " + std::string(field));
+  require_planes_of(*program_, capture);
 }
 
 LightingJudge::Output LightingJudge::output(const LitRange& lit, const std::array<double, 3>& change,

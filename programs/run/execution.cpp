@@ -62,6 +62,15 @@ Source place_of_output(const Executable& executable, int output, Rate rate) {
   return {Place::plane, at.value + (at.rate == Rate::sum ? uint32_t(executable.at(Rate::surface).values()) : 0)};
 }
 
+/// An output of a batch whose stage has run, where it lies, or copied there.
+const float* lanes_of_output(const Executable& executable, int output, Rate rate, const BatchPlaces& places,
+                             const BatchBlocks& blocks, Registers& registers) {
+  const Source from = place_of_output(executable, output, rate);
+  if (from.place == Place::lanes) return registers.data() + from.slot * kBatchLanes;
+  copy_value(from, places, blocks, registers, registers.output(output));
+  return registers.output(output);
+}
+
 }  // namespace
 
 LaneValues::LaneValues(const Stage& stage, size_t lanes)
@@ -116,27 +125,50 @@ PairResults run_pairs(const Executable& executable, const ConstantValues& consta
     blocks.plane_lane[k] = pairs[k].first_pixel, blocks.light[k] = pairs[k].light;
   run_batch(executable.at(Rate::pair), places, blocks, registers);
   const float* lanes[kStartOutput];
-  for (int i = 0; i < kStartOutput; ++i) {
-    const Source from = place_of_output(executable, i, Rate::pair);
-    lanes[i] = from.place == Place::lanes ? registers.data() + from.slot * kBatchLanes : registers.output(i);
-    if (from.place != Place::lanes) copy_value(from, places, blocks, registers, registers.output(i));
-  }
+  for (int i = 0; i < kStartOutput; ++i)
+    lanes[i] = lanes_of_output(executable, i, Rate::pair, places, blocks, registers);
   return {{lanes[0], lanes[1], lanes[2]}, lanes[kReachesOutput]};
 }
 
+namespace {
+
+/// What the stage `sum` reads: values of surfaces, and the sums behind them.
+std::vector<const float*> planes_of_sums(const Executable& executable, const LaneValues& surfaces,
+                                         const float* const sum[3]) {
+  std::vector<const float*> planes(surfaces.planes(), surfaces.planes() + executable.at(Rate::surface).values());
+  for (const uint32_t input : executable.at(Rate::sum).inputs)
+    planes.push_back(sum[executable.program.inputs[input].name.back() - 'x']);
+  return planes;
+}
+
+}  // namespace
+
 void run_finish(const Executable& executable, const ConstantValues& constants, const LaneValues& surfaces,
                 const float* const sum[3], float* const finish[4], Registers& registers) {
-  const Stage& stage = executable.at(Rate::sum);
-  std::vector<const float*> planes(surfaces.planes(), surfaces.planes() + executable.at(Rate::surface).values());
-  for (const uint32_t input : stage.inputs) planes.push_back(sum[executable.program.inputs[input].name.back() - 'x']);
+  const std::vector<const float*> planes = planes_of_sums(executable, surfaces, sum);
   const BatchPlaces places{constants.data(), planes.data(), nullptr};
   for (size_t first = 0; first < surfaces.lanes(); first += kBatchLanes) {
     const BatchBlocks blocks(first, surfaces.lanes());
-    run_batch(stage, places, blocks, registers);
+    run_batch(executable.at(Rate::sum), places, blocks, registers);
     for (int c = 0; c < 4; ++c)
       copy_value(place_of_output(executable, kFinishOutput + c, Rate::sum), places, blocks, registers,
                  finish[c] + first);
   }
+}
+
+std::array<const float*, 4> run_finish(const Executable& executable, const ConstantValues& constants,
+                                       const LaneValues& surfaces, const float* const sum[3],
+                                       std::span<const PairBlock> of, Registers& registers) {
+  const std::vector<const float*> planes = planes_of_sums(executable, surfaces, sum);
+  const BatchPlaces places{constants.data(), planes.data(), nullptr};
+  BatchBlocks blocks;
+  blocks.count = of.size();
+  for (size_t k = 0; k < of.size(); ++k) blocks.plane_lane[k] = of[k].first_pixel;
+  run_batch(executable.at(Rate::sum), places, blocks, registers);
+  std::array<const float*, 4> lanes;
+  for (int c = 0; c < 4; ++c)
+    lanes[size_t(c)] = lanes_of_output(executable, kFinishOutput + c, Rate::sum, places, blocks, registers);
+  return lanes;
 }
 
 }  // namespace trueshade::programs

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <span>
 #include <vector>
 
@@ -85,5 +86,11 @@ PairResults run_pairs(const Executable& executable, const ConstantValues& consta
 /// From the sums, as long as `surfaces`, makes what is stored: four planes of the same length.
 void run_finish(const Executable& executable, const ConstantValues& constants, const LaneValues& surfaces,
                 const float* const sum[3], float* const finish[4], Registers& registers);
+
+/// The same of at most kBatchBlocks blocks, all of other pixels; their lights are not read. The four results lie as
+/// those of run_pairs().
+std::array<const float*, 4> run_finish(const Executable& executable, const ConstantValues& constants,
+                                       const LaneValues& surfaces, const float* const sum[3],
+                                       std::span<const PairBlock> blocks, Registers& registers);
 
 }  // namespace trueshade::programs

@@ -8,6 +8,7 @@
 #include "python/binding/python_scene.h"
 #include "scenes/light_models/light_models.h"
 #include "scenes/pipeline/presets.h"
+#include "scenes/pipeline/program_inputs.h"
 
 namespace trueshade::python {
 namespace {
@@ -97,7 +98,7 @@ std::string described(const PythonPipeline& pipeline) {
 Pipeline PythonPipeline::over(const Scene& scene) const {
   if (whole) return *whole;
   Pipeline p = preset ? *preset_pipeline(*preset) : default_pipeline(scene);
-  if (light_program.used()) p.light_volumes.point = p.light_volumes.spot = LightExtent::range;
+  if (light_program.used()) end_at_range(p.light_volumes);
   if (!scene.pipeline_text.empty()) p = pipeline_from_json(scene.pipeline_text, scene.spec + ": /pipeline", p);
   if (!values.empty()) p = pipeline_from_json(values, "values", p);
   if (!named.empty()) p = pipeline_from_json(named, "pipeline", p);

@@ -33,11 +33,9 @@ void check_ranges(const LightProgram& program) {
 
 }  // namespace
 
-void require_summed_lights(const Pipeline& pipeline) {
-  if (pipeline.light_program.used() && blends_lights(pipeline.strategy))
-    throw Error(ErrorKind::usage, "strategy",
-                "light programs are summed, and " + std::string(name_of(pipeline.strategy)) + " blends light by light",
-                "deferred-loop or forward-loop");
+void end_at_range(LightVolumes& volumes) {
+  for (LightExtent* extent : {&volumes.point, &volumes.spot})
+    if (*extent == LightExtent::unbounded) *extent = LightExtent::range;
 }
 
 namespace {

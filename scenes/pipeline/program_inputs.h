@@ -15,8 +15,8 @@ namespace trueshade {
 /// What the names of parameters begin with among inputs.
 inline constexpr std::string_view kParameterBlock = "parameters.";
 
-/// Error(usage) where the pipeline has a light program and blends lights one by one.
-void require_summed_lights(const Pipeline& pipeline);
+/// What a light program's lights are bounded by where nothing else is said: geometry of lights stays.
+void end_at_range(LightVolumes& volumes);
 
 /// Fields of a surface that captures alone have: planes that --map names.
 struct CapturedFields {

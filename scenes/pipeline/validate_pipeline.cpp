@@ -155,7 +155,6 @@ void validate(const Pipeline& pipeline) {
   check_blend(pipeline.blend, "blend");
   check_transparency(pipeline);
   require_enumerator(pipeline.strategy, Strategy::deferred_loop, "strategy");
-  require_summed_lights(pipeline);
   require_format(pipeline.target, kTargetFormats, "target");
   require_enumerator(pipeline.profile, NumericProfile::mesa_llvmpipe_22_3, "profile");
   check_post(pipeline.post);

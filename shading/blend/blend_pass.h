@@ -14,6 +14,7 @@ struct BlendWork {
   std::vector<uint32_t> touching;  ///< lights whose geometry may touch the tile
   TileLights lights, region;       ///< their draws, as many as are drawn at once
   std::vector<uint16_t> counts;
+  std::shared_ptr<ProgramWork> program;  ///< made by the first tile that a light program lights
 };
 
 /// Draws all lights over one tile, each blended and rounded to the target's format before the next.

@@ -13,7 +13,8 @@
 #include "shading/blend/blend_tile-inl.h"
 #include "shading/blend/bounded/bounded_blend-inl.h"  // fast path
 #include "shading/blend/fast/added_pairs-inl.h"       // fast path
-#include "shading/light/fast/compiled_models.h"       // fast path
+#include "shading/blend/program_draws-inl.h"
+#include "shading/light/fast/compiled_models.h"  // fast path
 #include "shading/sum/light_loop-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -91,7 +92,6 @@ void begin(const TileBlend& t, int i) {
 }
 
 void begin_all(const TileBlend& t) {
-  std::fill_n(t.out.light_count, size_t(t.pixels()), 0u);
   const LightModel& m = t.in.model;
   const bool black = !t.in.first_base && !m.emission && m.global_ambient == glm::vec3(0.0f) &&
                      m.order != TermOrder::albedo_last && !m.alpha_from_albedo;
@@ -208,30 +208,50 @@ void list_touching(const TileBlend& t, uint32_t first) {
   if (t.method.adds && t.method.codes && draws.table.cones) gather_kinds(draws.table, out);
 }
 
-/// Draws the lights in t.work.touching, a chunk after the other.
-void draw_touching(const TileBlend& t) {
+/// Draws the lights in t.work.touching, a chunk after the other. by_program: null: the light model draws them.
+void draw_touching(const TileBlend& t, ProgramDraws* by_program) {
   const size_t count = t.work.touching.size();
   for (size_t first = 0; first < count; first += kChunkLights) {
     list_chunk(t, first, std::min(count, first + kChunkLights));
+    if (by_program != nullptr) {
+      by_program->draw_regions();
+      continue;
+    }
     if (t.in.compiled && with_compiled_shape<CompiledFor::blended>(t.in.model, DrawRegions{t})) continue;  // fast path
     DrawRegions{t}(any_shape(t.in.model));
   }
 }
 
-void blend_tile_simd(const LightVolumeDraws& draws, const SurfaceTile& surface, const TiedFragments* tied,
-                     const TileRect& rect, const float clear[4], BlendWork& work, ColorTile& out, LightCounts& counts) {
-  TileBlend t(draws, surface, rect, clear, work, out, counts);
-  begin_all(t);
-  if (surface.covered_pixels == 0 && tied == nullptr) return;
-  t.tied = tied != nullptr && !tied->tied.empty() ? tied->tied.data() : nullptr;
-  const uint32_t first_light = draws.first_base ? 1 : 0;
+void blend_by_program(const TileBlend& t, const TiedFragments* tied, uint32_t first_light) {
+  ProgramDraws draws(t);
+  draws.begin();
+  list_touching(t, first_light);
+  draw_touching(t, &draws);
+  if (t.tied != nullptr) draws.draw_tied(*tied, first_light);
+}
+
+void blend_by_model(const TileBlend& t, const TiedFragments* tied, uint32_t first_light) {
   if (t.method.saturates_alpha && t.method.adds) {
-    touching_lights(draws, rect, first_light, work.touching);
+    touching_lights(t.in, t.rect, first_light, t.work.touching);
     saturate_alpha(t);
   }
   list_touching(t, first_light);
-  draw_touching(t);
-  if (t.tied != nullptr) draw_tied(t.terms, t.plan, *tied, first_light, t.pixels(), out, counts);
+  draw_touching(t, nullptr);
+  if (t.tied != nullptr) draw_tied(t.terms, t.plan, *tied, first_light, t.pixels(), t.out, t.counts);
+}
+
+void blend_tile_simd(const LightVolumeDraws& draws, const SurfaceTile& surface, const TiedFragments* tied,
+                     const TileRect& rect, const float clear[4], BlendWork& work, ColorTile& out, LightCounts& counts) {
+  TileBlend t(draws, surface, rect, clear, work, out, counts);
+  const bool by_program = draws.table.program != nullptr, nothing = surface.covered_pixels == 0 && tied == nullptr;
+  std::fill_n(out.light_count, size_t(t.pixels()), 0u);
+  if (!by_program)
+    begin_all(t);
+  else if (nothing)
+    begin_black(t);
+  if (nothing) return;
+  t.tied = tied != nullptr && !tied->tied.empty() ? tied->tied.data() : nullptr;
+  (by_program ? blend_by_program : blend_by_model)(t, tied, draws.first_base ? 1 : 0);
   counts.lit_pairs += sum_of(out.light_count, t.pixels());
 }
 

@@ -33,6 +33,8 @@ inline bool discards(const LightTable& table) {
 }
 
 inline BlendMethod blend_method(const LightVolumeDraws& in, const BlendPlan& plan, const float clear[4]) {
+  // Of a program's lights those are left out whose extents have no pixel: they draw none.
+  if (in.table.program != nullptr) return {.adds = true, .saturates_alpha = false, .codes = false};
   bool positive = in.model.diffuse == Diffuse::clamped && in.model.falloff != Falloff::linear;
   for (int c = 0; c < 4; ++c) positive = positive && !std::signbit(clear[c]);  // -0 + 0 is 0
   bool rgb = plan.enabled && plan.rgb.term == kAccumulate && !plan.flushes && (plan.unorm() || positive);

@@ -1,20 +1,8 @@
 #pragma once
-#include "shading/program/program_frame.h"
 #include "shading/sum/light_pass.h"
+#include "shading/sum/program_work.h"
 
 namespace trueshade {
-
-/// Scratch of a thread for the tiles of one program; kept between tiles to save allocation.
-struct ProgramWork {
-  ProgramWork(std::shared_ptr<const programs::Executable> of, size_t pixels)
-      : executable(std::move(of)), registers(*executable), surfaces(executable->at(programs::Rate::surface), pixels) {}
-
-  std::shared_ptr<const programs::Executable> executable;
-  programs::Registers registers;
-  programs::LaneValues surfaces;
-  alignas(64) uint32_t pixel[2][kMaxTilePixels];
-  alignas(64) float finished[4][kMaxTilePixels];
-};
 
 /// What a tile of sums is made of, as light_tile() takes it.
 struct ProgramTile {

@@ -109,14 +109,16 @@ TEST_CASE("an explanation ends in the stored pixel of frames that a light progra
   for (const char* name : {"cornell", "city,objects=200,lights=40", "lecture"}) {
     const Scene scene = varied(name);
     for (size_t i = 0; i < programs.size(); ++i)
-      for (const Strategy strategy : {Strategy::deferred_loop, Strategy::forward_loop}) {
+      for (const Strategy strategy :
+           {Strategy::deferred_loop, Strategy::forward_loop, Strategy::deferred_volumes, Strategy::forward_multipass}) {
         Pipeline pipeline = pipeline_of(programs[i]);
         pipeline.strategy = strategy;
         pipeline.target =
             kTargetFormats[(i + (strategy == Strategy::forward_loop ? 1 : 0)) % std::size(kTargetFormats)];
-        pipeline.transparency.mode = i % 3 == 1 && strategy == Strategy::deferred_loop ? TransparencyMode::into_albedo
-                                                                                       : TransparencyMode::after_lights;
+        pipeline.transparency.mode =
+            i % 3 == 1 && !is_forward(strategy) ? TransparencyMode::into_albedo : TransparencyMode::after_lights;
         if (i % 4 == 3) pipeline.light_volumes.point = LightExtent::unbounded;
+        if (i % 4 == 2) pipeline.light_volumes.point = LightExtent::box, pipeline.light_volumes.base = i % 8 == 2;
         INFO(name << ' ' << i << ' ' << name_of(strategy) << ' ' << info(pipeline.target).name);
         const Comparison comparison(scene, pipeline);
         covered += comparison.covered();
@@ -133,7 +135,6 @@ TEST_CASE("an explanation ends in the stored pixel of random scenes under a ligh
     Scene scene = testing::random_scene(random);
     for (Material& m : scene.materials) m.unlit = random.below(4) == 0;
     Pipeline pipeline = testing::random_pipeline(random);
-    pipeline.strategy = random.below(2) == 0 ? Strategy::deferred_loop : Strategy::forward_loop;
     if (is_forward(pipeline.strategy) && pipeline.transparency.mode == TransparencyMode::into_albedo)
       pipeline.transparency.mode = TransparencyMode::after_lights;
     pipeline.light_program = everything();

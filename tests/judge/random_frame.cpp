@@ -212,7 +212,6 @@ void take_glass_in_halves(RandomFrame& frame, Pcg32& random) {
 void take_program(Pipeline& p, Pcg32& random) {
   const std::string text = random_light_text(random);
   p.light_program = {"random.glsl", text, {}, {}};
-  p.strategy = one_in(random, 2) ? Strategy::deferred_loop : Strategy::forward_loop;
 }
 
 /// Mesa's clip stage hands on NaN where it cuts some triangles of noperspective attributes, and our own frames follow

@@ -221,9 +221,6 @@ TEST_CASE("What a light program cannot be is said with its place") {
   CHECK(error_of(scene, by_program("vec3 light(Surface s, Light l, View v) {\n  return nothing;\n}"))
             .find("lights.glsl:2") != std::string::npos);
   CHECK(error_of(scene, by_program("float f;")).find("light") != std::string::npos);
-  Pipeline blended = by_program(kManyLights);
-  blended.strategy = Strategy::deferred_volumes;
-  CHECK(error_of(scene, blended).find("deferred-loop") != std::string::npos);
   CHECK(error_of(scene, by_program("vec3 light(Surface s, Light l, View v) { return s.user[0].rgb; }"))
             .find("surface.user") != std::string::npos);
 }

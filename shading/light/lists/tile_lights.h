@@ -33,9 +33,12 @@ struct TileLights {
     masks.clear();
   }
   /// A light of the table. One without a position reaches everything: no comparison with its NaN drops it.
-  void add(const LightTable& table, uint32_t i, uint32_t first = 0, int16_t crossing = 0) {
+  static ListedLight listed(const LightTable& table, uint32_t i, uint32_t first = 0, int16_t crossing = 0) {
     const float x = table.position[0][i];
-    add({&table.row[i], {x, table.position[1][i], table.position[2][i]}, table.cut2[i], first, crossing, x == x});
+    return {&table.row[i], {x, table.position[1][i], table.position[2][i]}, table.cut2[i], first, crossing, x == x};
+  }
+  void add(const LightTable& table, uint32_t i, uint32_t first = 0, int16_t crossing = 0) {
+    add(listed(table, i, first, crossing));
   }
   void add(const ListedLight& listed) {
     const size_t i = light.size();

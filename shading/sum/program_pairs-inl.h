@@ -1,0 +1,109 @@
+// Pairs of a block of pixels and a light on their way through a light program. Included once per SIMD target.
+#if defined(TRUESHADE_SHADING_SUM_PROGRAM_PAIRS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRUESHADE_SHADING_SUM_PROGRAM_PAIRS_INL_H_
+#undef TRUESHADE_SHADING_SUM_PROGRAM_PAIRS_INL_H_
+#else
+#define TRUESHADE_SHADING_SUM_PROGRAM_PAIRS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <span>
+
+#include "shading/light/light_term-inl.h"
+#include "shading/light/lists/light_lists-inl.h"
+#include "shading/sum/light_pass.h"
+#include "shading/sum/program_work.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trueshade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using programs::kBatchBlocks;
+static_assert(programs::kBlockLanes == kBlockPixels);
+
+/// A batch of pairs, and the pixels of each that the light is brought to.
+struct PairBatch {
+  programs::PairBlock pair[kBatchBlocks];
+  unsigned pixels[kBatchBlocks];
+  size_t count = 0;
+
+  void add(int first_pixel, uint32_t light, unsigned of_block) {
+    pair[count] = {uint32_t(first_pixel), light}, pixels[count] = of_block;
+    ++count;
+  }
+  programs::PairResults run(const ProgramFrame& program, ProgramWork& work, LightCounts& counts) const {
+    counts.evaluated_pairs += count * kBlockPixels;
+    return run_pairs(program.executable(), program.constants(), program.lights(), work.surfaces, {pair, count},
+                     work.registers);
+  }
+};
+
+/// A listed light's number in the scene.
+inline uint32_t number_of(const LightTable& lights, const ListedLight& listed) {
+  return lights.first_light + uint32_t(listed.light - lights.row.data());
+}
+
+/// Results of a pair at a vector of its pixels.
+struct PairVector {
+  VF light[3];
+  MF adds;     ///< some channel is not 0, at a pixel that the light is brought to
+  MF counted;  ///< the light is counted there
+
+  PairVector(const programs::PairResults& results, size_t at, unsigned pixels, bool reaches) {
+    const DF d;
+    const DI di;
+    const VF zero = hn::Zero(d);
+    for (int c = 0; c < 3; ++c) light[c] = hn::Load(d, results.light[c] + at);
+    // Highway's Ne is false with NaN on some targets.
+    const MF black = hn::And(hn::And(hn::Eq(light[0], zero), hn::Eq(light[1], zero)), hn::Eq(light[2], zero));
+    adds = counted = hn::And(lanes_of(pixels), hn::Not(black));
+    if (!reaches) return;
+    const auto words = hn::Load(di, reinterpret_cast<const int32_t*>(results.reaches + at));
+    counted = hn::And(lanes_of(pixels), hn::RebindMask(d, hn::Ne(words, hn::Zero(di))));
+  }
+
+  void count(ColorTile& out, size_t at) const {
+    const DF d;
+    const DI di;
+    int32_t* const count = reinterpret_cast<int32_t*>(out.light_count + at);
+    const auto one = hn::BitCast(di, hn::IfThenElseZero(counted, hn::BitCast(d, hn::Set(di, 1))));
+    hn::Store(hn::Add(hn::Load(di, count), one), di, count);
+  }
+};
+
+/// Adds the results of a batch to the sums in `out`, which the pairs before it have been added to.
+inline void add_pairs(const PairBatch& batch, const programs::PairResults& results, bool reaches, ColorTile& out) {
+  const DF d;
+  for (size_t k = 0; k < batch.count; ++k)
+    for (size_t i = 0; i < size_t(kBlockPixels); i += hn::Lanes(d)) {
+      const PairVector of(results, k * kBlockPixels + i, batch.pixels[k] >> i, reaches);
+      const size_t at = batch.pair[k].first_pixel + i;
+      for (int c = 0; c < 3; ++c) {
+        float* const sum = out.plane[c] + at;
+        const VF before = hn::Load(d, sum);
+        hn::Store(hn::IfThenElse(of.adds, hn::Add(before, of.light[c]), before), d, sum);
+      }
+      of.count(out, at);
+    }
+}
+
+/// Of some pixels of a block those that a light's extent has: nearer than the root of cut2, or all where it has no
+/// place.
+inline unsigned pixels_in_extent(const SurfaceTile& s, int first, const ListedLight& light, unsigned pixels) {
+  const DF d;
+  if (!light.has_position) return pixels;
+  unsigned near = 0;
+  for (size_t i = 0; i < size_t(kBlockPixels); i += hn::Lanes(d)) {
+    VF to_light[3];
+    for (int c = 0; c < 3; ++c)
+      to_light[c] = hn::Sub(hn::Set(d, light.position[c]), hn::Load(d, s.plane[kPosition + c] + first + i));
+    near |= unsigned(mask_bits(hn::Lt(dot3(to_light, to_light), hn::Set(d, light.cut2)))) << i;
+  }
+  return near & pixels;
+}
+
+}  // namespace trueshade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // per-target include guard
