@@ -25,6 +25,8 @@ void add_light_program(CommandTable& table, PipelineOptions& options) {
       "SPIR-V (docs/light_programs.md)");
   add_values(table, "--light-parameter", "NAME=VALUE", options.light_parameters,
              "A member of its uniform block Parameters, components with commas; may be repeated");
+  add_switch(table, "--no-machine-code", options.no_machine_code,
+             "Interpret it, so that no memory becomes executable; never changes a pixel");
 }
 
 void add_size(CommandTable& table, std::optional<std::string>& size) {

@@ -33,6 +33,7 @@ class ProgramFrame {
   const programs::ConstantValues& constants() const { return constants_; }
   const programs::LaneValues& lights() const { return *lights_; }
   const ProgramReads& reads() const { return reads_; }
+  bool has_unlit() const { return has_unlit_; }                         ///< some material is
   bool is_unlit(uint32_t material) const { return unlit_[material]; }  ///< shows its colour, whatever the lights
 
   /// Where a tile holds an input of the stage of surfaces; `pixels` has the numbers of columns and rows, a plane each.
@@ -48,6 +49,7 @@ class ProgramFrame {
   std::vector<programs::LaneBlock> light_planes_;
   std::unique_ptr<programs::LaneValues> lights_;
   std::vector<uint8_t> unlit_;
+  bool has_unlit_ = false;
 };
 
 }  // namespace trueshade
