@@ -191,9 +191,10 @@ CommandTable explain_table(ExplainOptions& options, ExplainTexts& texts) {
             "A picture of the same frame, .png, .exr, .tif, .dds or .npy: whether its value is legal there, and what "
             "would have made it");
   table.open_group = "Output";
-  add_switch(table, "--all", options.all,
-             "Print every covering triangle, every light and every draw, also those that change nothing, and every step of "
-             "a light program");
+  add_switch(
+      table, "--all", options.all,
+      "Print every covering triangle, every light and every draw, also those that change nothing, and every step of "
+      "a light program");
   add_switch(table, "--json", options.json, "Print all of it as one JSON document");
   add_quiet(table, options, "Say neither notes nor progress");
   add_size(table, texts.size);

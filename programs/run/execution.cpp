@@ -38,10 +38,11 @@ bool run_batch(const Executable& executable, Rate rate, const BatchPlaces& place
   for (size_t k = 0; k < stage.kept.size(); ++k)
     if (stage.kept_from[k].place == Place::lanes)
       results[k] = to != nullptr ? to->kept(k) + first : registers.data() + stage.kept_from[k].slot * kBatchLanes;
-  const CodeView view{stage.code.data(), stage.code.size(), registers.data(),  places.planes,     places.constants,
-                      places.lights,     blocks.plane_lane, blocks.light,      blocks.count,      places.light_rows,
+  const CodeView view{stage.code.data(), stage.code.size(), registers.data(), places.planes, places.constants,
+                      places.lights,     blocks.plane_lane, blocks.light,     blocks.count,  places.light_rows,
                       registers.frame(), results,           blocks.wanted};
-  if (const StageFunction run = executable.machine->function(executable, rate)) return run(view), to != nullptr;  // fast path
+  if (const StageFunction run = executable.machine->function(executable, rate))
+    return run(view), to != nullptr;  // fast path
   run_code(view);
   return false;
 }

@@ -18,7 +18,9 @@ struct alignas(64) LaneBlock {
 class Registers {
  public:
   explicit Registers(const Executable& executable)
-      : count_(executable.registers()), blocks_((count_ + kOutputCount) * kBatchBlocks + executable.frame_blocks()), results_(executable.program.nodes.size()) {}
+      : count_(executable.registers()),
+        blocks_((count_ + kOutputCount) * kBatchBlocks + executable.frame_blocks()),
+        results_(executable.program.nodes.size()) {}
   float* data() { return blocks_.data()->lane; }
   float* output(int i) { return data() + (count_ + size_t(i)) * kBatchLanes; }
   float* frame() { return output(kOutputCount); }

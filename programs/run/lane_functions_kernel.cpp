@@ -23,8 +23,7 @@ HWY_INLINE VD doubles(const float* from) { return hn::PromoteTo(DD(), hn::Load(D
 /// A function in double, by one of double_functions-inl.h.
 template <VD (*kFunction)(VD)>
 void in_double(const float* a, const float*, const float*, float* to, size_t lanes) {
-  for (size_t i = 0; i < lanes; i += hn::Lanes(DD()))
-    store_rounded(kFunction(doubles(a + i)), to + i);
+  for (size_t i = 0; i < lanes; i += hn::Lanes(DD())) store_rounded(kFunction(doubles(a + i)), to + i);
 }
 
 HWY_INLINE VD exp_function(VD x) { return exp2_of(hn::Mul(x, number(kLog2OfE))); }
@@ -37,8 +36,7 @@ HWY_INLINE VD tan_function(VD x) {
 }
 
 void arc_tangents(const float* y, const float* x, const float*, float* to, size_t lanes) {
-  for (size_t i = 0; i < lanes; i += hn::Lanes(DD()))
-    store_rounded(atan2_of(doubles(y + i), doubles(x + i)), to + i);
+  for (size_t i = 0; i < lanes; i += hn::Lanes(DD())) store_rounded(atan2_of(doubles(y + i), doubles(x + i)), to + i);
 }
 
 void powers(const float* x, const float* p, const float*, float* to, size_t lanes) {

@@ -33,7 +33,7 @@ class ProgramFrame {
   const programs::ConstantValues& constants() const { return constants_; }
   const programs::LaneValues& lights() const { return *lights_; }
   const ProgramReads& reads() const { return reads_; }
-  bool has_unlit() const { return has_unlit_; }                         ///< some material is
+  bool has_unlit() const { return has_unlit_; }                        ///< some material is
   bool is_unlit(uint32_t material) const { return unlit_[material]; }  ///< shows its colour, whatever the lights
 
   /// Where a tile holds an input of the stage of surfaces; `pixels` has the numbers of columns and rows, a plane each.

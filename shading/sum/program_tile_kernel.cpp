@@ -77,7 +77,8 @@ class PairBatch {
     return hn::RebindMask(DF(), hn::Ne(hn::Load(di, reinterpret_cast<const int32_t*>(words)), hn::Zero(di)));
   }
 
-  /// Adds the results of pairs of one block, in their order, to the sums of a vector of its pixels, those from lane i on.
+  /// Adds the results of pairs of one block, in their order, to the sums of a vector of its pixels, those from lane i
+  /// on.
   void add_up(size_t first, size_t end, size_t i, const programs::PairResults& results) {
     const DF d;
     const DI di;

@@ -1,4 +1,5 @@
-// What the command draws by machine code of a light program, interpreted, and where the system refuses the code's memory.
+// What the command draws by machine code of a light program, interpreted, and where the system refuses the code's
+// memory.
 #include <fstream>
 
 #include "tests/catch.hpp"
@@ -11,8 +12,8 @@ using namespace trueshade::testing;
 
 TEST_CASE("A light program draws the same picture as machine code, interpreted, and where memory is not executable") {
   const ScratchFolder folder;
-  const std::vector<std::string> render = {"render",         "builtin:cornell", "--size", "64x48",
-                                           "--light-shader", "ue4",             "--hash"};
+  const std::vector<std::string> render = {"render", "builtin:cornell", "--size", "64x48", "--light-shader",
+                                           "ue4",    "--hash"};
   const Outcome drawn = run_command(render);
   REQUIRE(drawn.exit_code == 0);
   std::vector<std::string> interpreted = render;

@@ -94,7 +94,8 @@ void check_bounds(const programs::Program& program) {
     const programs::MachineCodeScope interpreted(false);
     for (const auto& [name, bits] : programs::run_once(program, numbers)) {
       const float a = programs::float_of(bits), b = programs::float_of(made.at(name));
-      promise(bits == made.at(name) || (a != a && b != b), "machine code of a light program has the interpreter's bits");
+      promise(bits == made.at(name) || (a != a && b != b),
+              "machine code of a light program has the interpreter's bits");
     }
   }
   if (!reads_given_alone(program) || program.defines_start) return;

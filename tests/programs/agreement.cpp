@@ -1,6 +1,6 @@
 // The product's programs against the oracle's interpreter of SPIR-V: two readings of one contract, by two hands, which
-// share no code. The texts are made at random, and both are given the same bits, the product's as machine code, where the
-// target has it, and interpreted.
+// share no code. The texts are made at random, and both are given the same bits, the product's as machine code, where
+// the target has it, and interpreted.
 #include <algorithm>
 #include <bit>
 #include <cmath>

@@ -1,6 +1,6 @@
-// Stages of programs as machine code (programs/run/fast): each operation by its plain formula, values that no register is
-// left for, and what becomes of memory. Where the build has no encoder or the machine neither AVX-512 nor AVX2, nothing is
-// checked. Random programs run as machine code in random_programs.cpp and agreement.cpp.
+// Stages of programs as machine code (programs/run/fast): each operation by its plain formula, values that no register
+// is left for, and what becomes of memory. Where the build has no encoder or the machine neither AVX-512 nor AVX2,
+// nothing is checked. Random programs run as machine code in random_programs.cpp and agreement.cpp.
 #include <sys/mman.h>
 
 #include <fstream>

@@ -1,16 +1,10 @@
 #ifdef TRUESHADE_XBYAK
 #include "programs/run/fast/stage_compiler.h"
 
-#include <algorithm>
-#include <bit>
 #include <cstddef>
-#include <map>
 #include <optional>
-#include <set>
-#include <variant>
 
-#include "programs/run/fast/vector_assembler.h"
-#include "programs/run/fast/vector_registers.h"
+#include "programs/run/fast/stage_operands.h"
 #include "programs/run/lane_functions.h"
 
 namespace trueshade::programs {
@@ -18,40 +12,12 @@ namespace {
 
 using Xbyak::Operand;
 using Xbyak::Opmask;
-using Xbyak::RegExp;
 using Xbyak::Xmm;
 
-constexpr int kScratch = 3, kNoScratch = -1;  // vector registers that no value is held in
-constexpr uint32_t kMostBlocks = 2;
-constexpr int kMasks = 6;                     // AVX-512's k1 to k6; k0 and k7 are scratch
-
-/// Writes a stage as a loop over blocks, two a turn where that hides latencies. The frame has, 64 bytes each, the
-/// constants that AVX2 reads, the planes of the turn's blocks, and for each block a place for each of the interpreter's
-/// registers, where a value goes that has no register here.
-class StageCompiler {
+/// Writes a stage as a loop over blocks, two a turn where that hides latencies.
+class StageCompiler : private StageOperands {
  public:
-  StageCompiler(const Executable& executable, Rate rate, VectorAssembler& to)
-      : executable_(executable),
-        rate_(rate),
-        stage_(executable.at(rate)),
-        asm_(to),
-        turn_blocks_(blocks_a_turn()),
-        values_(stage_, turn_blocks_) {
-    for (const Instruction& one : stage_.code) {
-      for (size_t k = 0; k < source_count(one); ++k) {
-        if (one.from[k].place == Place::plane) planes_.insert(one.from[k].slot);
-        if (one.from[k].place == Place::constant) constants_.insert({one.from[k].slot, -1});
-        reads_light_ = reads_light_ || one.from[k].place == Place::light;
-      }
-    }
-    first_plane_ = uint32_t(executable.at(Rate::constant).values());
-    plane_count_ = planes_.empty() ? 0 : *planes_.rbegin() + 1;
-    first_spill_ = first_plane_ + plane_count_ * turn_blocks_;
-    value_registers_ = asm_.registers() - kScratch;
-    const int live = int(turn_blocks_) * int(stage_.registers) + 1;  // with one that is loaded
-    for (auto& [slot, reg] : constants_)
-      if (!calls() && live < value_registers_) reg = --value_registers_;
-  }
+  StageCompiler(const Executable& executable, Rate rate, VectorAssembler& to) : StageOperands(executable, rate, to) {}
 
   void compile() {
     const Xbyak::Reg64 saved[] = {asm_.rbx, asm_.rbp, asm_.r12, asm_.r13, asm_.r14, asm_.r15};
@@ -76,20 +42,6 @@ class StageCompiler {
   }
 
  private:
-  /// As many blocks as have registers for what is live at once; one where functions are called, which keep none.
-  uint32_t blocks_a_turn() const {
-    const bool fit = int(kMostBlocks * stage_.registers) <= asm_.registers() - kScratch;
-    return asm_.wide() && fit && !calls() ? kMostBlocks : 1;
-  }
-
-  // rbx is the view, r12 where results of the turn's first block go, in bytes, r13 the constants, r14 the block's number
-  // and r15 the frame; each block's light has a register too, of which functions keep the first.
-  Xbyak::Address field(size_t offset) { return asm_.ptr[asm_.rbx + offset]; }
-  Xbyak::Reg64 light(uint32_t block) const {
-    const Xbyak::Reg64 lights[kMostBlocks] = {asm_.rbp, asm_.rsi};
-    return lights[block];
-  }
-
   void enter() {
     asm_.mov(asm_.rbx, asm_.rdi);
     asm_.mov(asm_.r13, field(offsetof(CodeView, constants)));
@@ -134,113 +86,6 @@ class StageCompiler {
     }
   }
 
-  RegExp frame(uint32_t place) const { return asm_.r15 + size_t(place) * sizeof(float[kBlockLanes]); }
-  RegExp plane(uint32_t slot, uint32_t block) const { return frame(first_plane_ + block * plane_count_ + slot); }
-  RegExp spilled(ValueId value) const {
-    return frame(first_spill_ + block(value) * stage_.registers + instruction(value).to);
-  }
-  /// Of a step: its instruction, and its block among the turn's.
-  const Instruction& instruction(uint32_t step) const { return stage_.code[step / turn_blocks_]; }
-  uint32_t block(uint32_t step) const { return step % turn_blocks_; }
-
-
-  /// Something that an instruction reads: a register, or a vector or one number in memory.
-  struct Given {
-    int reg = -1;
-    RegExp at{};
-    bool is_number = false;
-  };
-
-  Given given(uint32_t i, size_t k) {
-    const Source source = instruction(i).from[k];
-    switch (source.place) {
-      case Place::plane:
-        return {-1, plane(source.slot, block(i)) + 4 * half_};
-      case Place::light:
-        return {-1, light(block(i)) + 4 * source.slot, true};
-      case Place::constant:
-        if (const int reg = constants_.at(source.slot); reg >= 0) return {reg};
-        if (asm_.wide()) return {-1, asm_.r13 + 4 * source.slot, true};
-        return {-1, frame(source.slot)};
-      case Place::lanes:
-        break;
-    }
-    const ValueId value = values_.operand(i, k);
-    return {registers_->register_of(value), spilled(value)};
-  }
-
-  /// Brings an operand to a register: its own, one that it keeps if it is read again, or a scratch register if there is
-  /// one for it.
-  Xmm in_register(uint32_t i, size_t k, int scratch) {
-    const ValueId value = values_.operand(i, k);
-    if (value != kNone && is_mask(value)) {
-      asm_.vpmovm2d(asm_.scratch(scratch), in_mask(i, k, asm_.k7));
-      return asm_.scratch(scratch);
-    }
-    const Given from = given(i, k);
-    if (from.reg >= 0) return asm_.vector(from.reg);
-    const bool keeps = value != kNone && values_.next_use(value, i + 1) != kNone;
-    const Xmm to = keeps || scratch == kNoScratch ? taken(value, i, true) : asm_.scratch(scratch);
-    load(to, from);
-    return to;
-  }
-  void load(const Xmm& to, const Given& from) {
-    if (from.is_number)
-      asm_.vbroadcastss(to, asm_.dword[from.at]);
-    else
-      asm_.vmovaps(to, asm_.ptr[from.at]);
-  }
-
-  /// An operand where it lies; AVX2 reads no number as a vector.
-  using AnyOperand = std::variant<Xmm, Xbyak::Address>;
-  AnyOperand anywhere(uint32_t i, size_t k, int scratch) {
-    if (const ValueId value = values_.operand(i, k); value != kNone && is_mask(value)) return in_register(i, k, scratch);
-    const Given from = given(i, k);
-    if (from.reg >= 0) return asm_.vector(from.reg);
-    if (!from.is_number) return asm_.ptr[from.at];
-    if (asm_.wide()) return asm_.ptr_b[from.at];
-    load(asm_.scratch(scratch), from);
-    return asm_.scratch(scratch);
-  }
-  static const Operand& operand(const AnyOperand& any) {
-    return std::visit([](const auto& one) -> const Operand& { return one; }, any);
-  }
-
-  /// The register that a value gets; what held it goes to the frame.
-  Xmm taken(ValueId value, uint32_t i, bool loading) {
-    std::optional<ValueId> evicted;
-    const int reg = registers_->take(value, i, loading, evicted);
-    if (evicted) store(*evicted, reg);
-    return asm_.vector(reg);
-  }
-  void store(ValueId value, int reg) {
-    asm_.vmovaps(asm_.ptr[spilled(value)], asm_.vector(reg));
-    registers_->set_in_frame(value);
-  }
-
-  /// Whether a value is a mask: of AVX-512 the results of comparisons, and what is made of them.
-  bool is_mask(ValueId value) const {
-    const Encoding encoding = encoding_of(instruction(value).op);
-    return asm_.wide() && (encoding == Encoding::compare || encoding == Encoding::masks);
-  }
-  Opmask in_mask(uint32_t i, size_t k, const Opmask& scratch) {
-    const ValueId value = values_.operand(i, k);
-    if (value == kNone || !is_mask(value))
-      asm_.vpmovd2m(scratch, in_register(i, k, 0));
-    else if (masks_->register_of(value) >= 0)
-      return held_mask(value);
-    else
-      asm_.kmovw(scratch, asm_.ptr[spilled(value)]);
-    return scratch;
-  }
-  Opmask held_mask(ValueId value) const { return Opmask(masks_->register_of(value) + 1); }
-  Opmask taken_mask(ValueId value, uint32_t i) {
-    std::optional<ValueId> evicted;
-    const Opmask mask(masks_->take(value, i, false, evicted) + 1);
-    if (evicted) asm_.kmovw(asm_.ptr[spilled(*evicted)], mask);
-    return mask;
-  }
-
   void write_vector() {
     registers_.emplace(values_, value_registers_);
     masks_.emplace(values_, kMasks);
@@ -269,8 +114,9 @@ class StageCompiler {
     for (uint32_t i = turn_blocks_ - 1; i < values_.count(); i += turn_blocks_) {
       if (values_.kept(i) == kNone) continue;
       const bool or_zero = encoding_of(instruction(i).op) == Encoding::choice && literal(instruction(i).from[2]) == 0u;
-      if (!or_zero || (condition != kNone && condition != values_.operand(i, 0))) return kNone;
-      condition = values_.operand(i, 0);
+      const ValueId read = or_zero ? values_.operand(i, 0) : kNone;
+      if (read == kNone || (condition != kNone && condition != read)) return kNone;
+      condition = read;
     }
     return condition < values_.count() * 2 / 3 ? condition : kNone;
   }
@@ -280,7 +126,7 @@ class StageCompiler {
       const Xmm words = asm_.vector(registers_->register_of(condition));
       asm_.vtestps(words, words);
     } else if (is_mask(condition)) {
-      asm_.kortestw(held_mask(condition), held_mask(condition + 1 - turn_blocks_));
+      asm_.kortestw(mask_of(condition, asm_.k7), mask_of(condition + 1 - turn_blocks_, asm_.k0));
     } else {
       return;
     }
@@ -306,7 +152,7 @@ class StageCompiler {
   void write_result(uint32_t i) {
     Xmm made = asm_.scratch(0);
     if (is_mask(i))
-      asm_.vpmovm2d(made, held_mask(i));
+      asm_.vpmovm2d(made, mask_of(i, asm_.k7));
     else if (const int reg = registers_->register_of(i); reg >= 0)
       made = asm_.vector(reg);
     else
@@ -370,7 +216,8 @@ class StageCompiler {
       const Xmm either = in_register(i, or_zero ? 1 : 2, 1);
       const AnyOperand a = or_zero ? AnyOperand(either) : anywhere(i, 1, 2);
       const Xmm to = taken(i, i, false);
-      return or_zero ? asm_.vmovaps(to | condition | asm_.T_z, either) : asm_.vblendmps(to | condition, either, operand(a));
+      return or_zero ? asm_.vmovaps(to | condition | asm_.T_z, either)
+                     : asm_.vblendmps(to | condition, either, operand(a));
     }
     const Xmm condition = in_register(i, 0, 0);
     if (or_zero) {
@@ -440,41 +287,6 @@ class StageCompiler {
     if (values_.next_use(value, i + 1) != kNone) asm_.kmovw(asm_.ptr[spilled(value)], Opmask(reg + 1));
     masks_->release(reg);
   }
-
-  /// The bits of a constant that the program's text says.
-  std::optional<uint32_t> literal(Source source) const {
-    const Stage& constants = executable_.at(Rate::constant);
-    if (source.place != Place::constant || source.slot < constants.inputs.size()) return std::nullopt;
-    const ProgramNode& node = executable_.program.nodes[constants.kept[source.slot - constants.inputs.size()]];
-    if (node.op != Op::constant) return std::nullopt;
-    return register_word(node.type, node.bits);
-  }
-
-  /// The exponent of a power that the program's text says, if it is an integer in 0..8192; else -1.
-  int literal_power(const Instruction& one) const {
-    if (one.op != Op::pow) return -1;
-    const std::optional<uint32_t> exponent = literal(one.from[1]);
-    return exponent ? whole_power(std::bit_cast<float>(*exponent)) : -1;
-  }
-  bool calls() const {
-    return std::any_of(stage_.code.begin(), stage_.code.end(), [&](const Instruction& one) {
-      return one.product == Product::none && encoding_of(one.op) == Encoding::function && literal_power(one) < 0;
-    });
-  }
-
-  const Executable& executable_;
-  const Rate rate_;
-  const Stage& stage_;
-  VectorAssembler& asm_;
-  const uint32_t turn_blocks_;
-  const StageValues values_;
-  std::set<uint32_t> planes_;
-  std::map<uint32_t, int> constants_;  // by slot, the register that holds one all the time, or -1
-  bool reads_light_ = false;
-  int value_registers_ = 0;
-  uint32_t first_plane_ = 0, plane_count_ = 0, first_spill_ = 0;
-  std::optional<VectorRegisters> registers_, masks_;
-  int half_ = 0;  // the first lane of the block's that is being written
 };
 
 }  // namespace

@@ -13,8 +13,8 @@ inline constexpr uint32_t kNone = ~0u;
 size_t source_count(const Instruction& one);
 
 /// The values that a stage's code computes, where its instructions are written for several vectors in turn: of `parts`
-/// parts, the k-th of instruction i is step i * parts + k, and makes the value of that number. The interpreter's registers
-/// hold one value after the other; here each has one name, and the steps that read it.
+/// parts, the k-th of instruction i is step i * parts + k, and makes the value of that number. The interpreter's
+/// registers hold one value after the other; here each has one name, and the steps that read it.
 class StageValues {
  public:
   StageValues(const Stage& stage, uint32_t parts);

@@ -21,8 +21,8 @@ Encoding encoding_of(Op op);
 bool commutes(Op op);
 
 /// Instructions of operations on whole vectors: 16 lanes of AVX-512 or 8 of AVX2. Nothing is contracted, and
-/// minima and maxima give the second operand where one is NaN or both are 0, as lane_operations-inl.h has it. Booleans are
-/// words of ones or zeros, or masks.
+/// minima and maxima give the second operand where one is NaN or both are 0, as lane_operations-inl.h has it. Booleans
+/// are words of ones or zeros, or masks.
 class VectorAssembler : public Xbyak::CodeGenerator {
  public:
   VectorAssembler(SimdTarget target, uint8_t* code, size_t size)

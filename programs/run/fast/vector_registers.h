@@ -18,8 +18,8 @@ class VectorRegisters {
   bool in_frame(ValueId value) const { return in_frame_[value]; }
   void set_in_frame(ValueId value) { in_frame_[value] = true; }
 
-  /// The register that `value` gets for what instruction `now` writes or, `loading`, first loads; a loaded value takes no
-  /// register from one that this instruction reads. `evicted` is a value that must be stored before.
+  /// The register that `value` gets for what instruction `now` writes or, `loading`, first loads; a loaded value takes
+  /// no register from one that this instruction reads. `evicted` is a value that must be stored before.
   int take(ValueId value, uint32_t now, bool loading, std::optional<ValueId>& evicted);
   ValueId held(int reg) const { return held_[size_t(reg)]; }
   void release(int reg) { in_[held_[size_t(reg)]] = -1, held_[size_t(reg)] = kNone; }
