@@ -41,8 +41,8 @@ bool run_batch(const Executable& executable, Rate rate, const BatchPlaces& place
   const CodeView view{stage.code.data(), stage.code.size(), registers.data(), places.planes, places.constants,
                       places.lights,     blocks.plane_lane, blocks.light,     blocks.count,  places.light_rows,
                       registers.frame(), results,           blocks.wanted};
-  if (const StageFunction run = executable.machine->function(executable, rate))
-    return run(view), to != nullptr;  // fast path
+  const StageFunction machine_code = executable.machine->function(executable, rate);  // fast path
+  if (machine_code != nullptr) return machine_code(view), to != nullptr;              // fast path
   run_code(view);
   return false;
 }
