@@ -25,6 +25,8 @@ void add_light_program(CommandTable& table, PipelineOptions& options) {
       "SPIR-V (docs/light_programs.md)");
   add_values(table, "--light-parameter", "NAME=VALUE", options.light_parameters,
              "A member of its uniform block Parameters, components with commas; may be repeated");
+  add_switch(table, "--no-machine-code", options.no_machine_code,
+             "Interpret it, so that no memory becomes executable; never changes a pixel");
 }
 
 void add_size(CommandTable& table, std::optional<std::string>& size) {
@@ -189,9 +191,10 @@ CommandTable explain_table(ExplainOptions& options, ExplainTexts& texts) {
             "A picture of the same frame, .png, .exr, .tif, .dds or .npy: whether its value is legal there, and what "
             "would have made it");
   table.open_group = "Output";
-  add_switch(table, "--all", options.all,
-             "Print every covering triangle, every light and every draw, also those that change nothing, and every step of "
-             "a light program");
+  add_switch(
+      table, "--all", options.all,
+      "Print every covering triangle, every light and every draw, also those that change nothing, and every step of "
+      "a light program");
   add_switch(table, "--json", options.json, "Print all of it as one JSON document");
   add_quiet(table, options, "Say neither notes nor progress");
   add_size(table, texts.size);

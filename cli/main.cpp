@@ -27,6 +27,7 @@
 #include "core/pixel_cap.h"
 #include "core/printable_text.h"
 #include "farm/process_ranks.h"
+#include "programs/run/fast/machine_stages.h"
 
 namespace trueshade {
 namespace {
@@ -155,6 +156,9 @@ void set_up(const Command& command) {
       [](const auto& options) {
         if constexpr (requires { options.quiet; })
           if (options.quiet) be_quiet();
+        if constexpr (requires { options.no_machine_code; }) {
+          if (options.no_machine_code) static const programs::MachineCodeScope interpreted(false);
+        }
         if constexpr (requires { options.limits; }) {
           if (options.limits.memory != 0) set_memory_cap(options.limits.memory);
           if (options.limits.pixels != 0) set_pixel_cap(options.limits.pixels);

@@ -50,6 +50,7 @@ struct PipelineOptions : LimitedOptions {
   std::optional<std::string> pipeline_file;
   std::optional<std::string> light_shader;    ///< a light program's file, or a model that ships
   std::vector<std::string> light_parameters;  ///< NAME=VALUE[,VALUE...]
+  bool no_machine_code = false;               ///< light programs are interpreted
   std::optional<Size> size;
   std::optional<Format> target;
   std::optional<NumericProfile> profile;

@@ -1,7 +1,7 @@
 #!/bin/bash
 # Fails on an #include that tests/include_arrows.txt does not allow, and on arrows that make a circle. Also holds libraries
 # to their places: OpenImageIO in core/image_files, Embree in oracle/ray_scene.h, epoxy in gl/driver, MPI in
-# farm/mpi, glslang in gl/vulkan and programs/front.
+# farm/mpi, glslang in gl/vulkan and programs/front, Xbyak in programs/run/fast.
 # Usage: include_arrows.sh SOURCE_FOLDER
 set -euo pipefail
 cd "$1"
@@ -46,6 +46,7 @@ only_in 'embree' 'oracle/ray_scene.h'
 only_in 'mpi.h' 'farm/mpi/[a-z_]*\.(h|cpp)'
 only_in 'glslang/' '(gl/vulkan|programs/front)/[a-z_]*\.(h|cpp)'
 only_in 'spirv-tools/' 'programs/front/[a-z_]*\.(h|cpp)'
+only_in 'xbyak/' 'programs/run/fast/vector_assembler.h'
 only_in 'epoxy/' 'gl/driver/[a-z_]*\.(h|cpp)'
 
 # The oracle, the judge and the OpenGL twin judge our arithmetic, so they must not use it.

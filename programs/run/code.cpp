@@ -3,10 +3,13 @@
 #include <cstring>
 
 #include "core/simd/dispatch.h"
+#include "programs/run/lane_functions.h"
 
 namespace trueshade::programs {
 
 void run_code(const CodeView& view) { kernel<run_code>()(view); }
+LaneFunction lane_function(Op op) { return kernel<lane_function>()(op); }
+LaneFunction same_power_function() { return kernel<same_power_function>()(); }
 
 uint32_t register_word(Type type, uint32_t bits) { return type == Type::boolean && bits != 0 ? ~0u : bits; }
 

@@ -43,6 +43,11 @@ struct CodeView {
   const uint32_t* plane_lane;  ///< for each block, the lane of its planes that it starts at, a multiple of kBlockLanes
   const uint32_t* light;       ///< for each block, its light
   size_t blocks;               ///< at most kBatchBlocks
+  // Of machine code alone, which may also run a block behind the last: its entries above name lanes that there are.
+  const float* light_rows = nullptr;  ///< the same values, one light's side by side
+  float* frame = nullptr;             ///< Executable::frame_blocks(), 64-byte aligned
+  float* const* results = nullptr;    ///< for each of Stage::kept that the code makes, where its lanes go
+  const uint32_t* wanted = nullptr;   ///< for each block, its lanes, bit by bit, whose results are asked for
 };
 
 /// Runs the instructions one after the other. Exact: the same bits on every SIMD target, but for those of NaNs.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "programs/run/fast/machine_stages.h"  // fast path
+
 namespace trueshade::programs {
 namespace {
 
@@ -168,6 +170,12 @@ size_t Executable::registers() const {
   return most;
 }
 
+size_t Executable::frame_blocks() const {
+  size_t blocks = registers();
+  for (const Stage& one : stage) blocks += one.values();
+  return 2 * blocks;  // at most two at a time
+}
+
 namespace {
 
 /// The program with `reaches` constant.
@@ -214,6 +222,7 @@ Executable executable_of(Program given, Wanted wanted) {
     const NodeId id = program.output[i];
     out.output[i] = {program.nodes[id].rate, value[id]};
   }
+  out.machine = std::make_shared<MachineStages>();  // fast path
   return out;
 }
 

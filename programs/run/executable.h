@@ -1,12 +1,15 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "programs/run/code.h"
 #include "programs/values/program.h"
 
 namespace trueshade::programs {
+
+class MachineStages;
 
 /// What is computed at one rate.
 struct Stage {
@@ -31,9 +34,11 @@ struct Executable {
   Program program;
   std::array<Stage, kRateCount> stage;
   std::array<OutputPlace, kOutputCount> output;
+  std::shared_ptr<MachineStages> machine;  ///< what of it is machine code
 
   const Stage& at(Rate rate) const { return stage[size_t(rate)]; }
-  size_t registers() const;  ///< the most of any stage
+  size_t registers() const;     ///< the most of any stage
+  size_t frame_blocks() const;  ///< blocks of lanes that machine code works in
 };
 
 /// What a light pass asks for: `reaches` costs operations that nothing else needs, and is 0 where it is left out.

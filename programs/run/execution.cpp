@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstring>
 
+#include "programs/run/fast/machine_stages.h"  // fast path
+
 namespace trueshade::programs {
 namespace {
 
@@ -12,12 +14,13 @@ struct BatchPlaces {
   const float* constants;
   const float* const* planes;
   const float* const* lights;
+  const float* light_rows = nullptr;
 };
 
 /// Where the blocks of a batch are.
 struct BatchBlocks {
   uint32_t plane_lane[kBatchBlocks] = {};
-  uint32_t light[kBatchBlocks] = {};
+  uint32_t light[kBatchBlocks] = {}, wanted[kBatchBlocks] = {};
   size_t count = 0;
 
   BatchBlocks() = default;
@@ -26,9 +29,22 @@ struct BatchBlocks {
   }
 };
 
-void run_batch(const Stage& stage, const BatchPlaces& places, const BatchBlocks& blocks, Registers& registers) {
-  run_code({stage.code.data(), stage.code.size(), registers.data(), places.planes, places.constants, places.lights,
-            blocks.plane_lane, blocks.light, blocks.count});
+/// Runs a stage on a batch. The results are in the registers, or, where this returns true, in the lanes of `to` from
+/// `first` on.
+bool run_batch(const Executable& executable, Rate rate, const BatchPlaces& places, const BatchBlocks& blocks,
+               Registers& registers, LaneValues* to = nullptr, size_t first = 0) {
+  const Stage& stage = executable.at(rate);
+  float** const results = registers.results();
+  for (size_t k = 0; k < stage.kept.size(); ++k)
+    if (stage.kept_from[k].place == Place::lanes)
+      results[k] = to != nullptr ? to->kept(k) + first : registers.data() + stage.kept_from[k].slot * kBatchLanes;
+  const CodeView view{stage.code.data(), stage.code.size(), registers.data(), places.planes, places.constants,
+                      places.lights,     blocks.plane_lane, blocks.light,     blocks.count,  places.light_rows,
+                      registers.frame(), results,           blocks.wanted};
+  const StageFunction machine_code = executable.machine->function(executable, rate);  // fast path
+  if (machine_code != nullptr) return machine_code(view), to != nullptr;              // fast path
+  run_code(view);
+  return false;
 }
 
 /// Copies a value of the lanes of a batch from where it lies.
@@ -43,12 +59,15 @@ void copy_value(Source from, const BatchPlaces& places, const BatchBlocks& block
 }
 
 /// A stage whose lanes lie side by side, and where its kept values go.
-void run_side_by_side(const Stage& stage, const BatchPlaces& places, LaneValues& values, Registers& registers) {
+void run_side_by_side(const Executable& executable, Rate rate, const BatchPlaces& places, LaneValues& values,
+                      Registers& registers) {
+  const Stage& stage = executable.at(rate);
   for (size_t first = 0; first < values.lanes(); first += kBatchLanes) {
     const BatchBlocks blocks(first, values.lanes());
-    run_batch(stage, places, blocks, registers);
+    const bool stored = run_batch(executable, rate, places, blocks, registers, &values, first);
     for (size_t i = 0; i < stage.kept.size(); ++i)
-      copy_value(stage.kept_from[i], places, blocks, registers, values.kept(i) + first);
+      if (!stored || stage.kept_from[i].place != Place::lanes)
+        copy_value(stage.kept_from[i], places, blocks, registers, values.kept(i) + first);
   }
 }
 
@@ -80,6 +99,12 @@ LaneValues::LaneValues(const Stage& stage, size_t lanes)
   for (size_t i = 0; i < stage.kept.size(); ++i) plane_[stage.inputs.size() + i] = kept(i);
 }
 
+void LaneValues::make_rows() {
+  rows_.resize(lanes_ * plane_.size());
+  for (size_t lane = 0; lane < lanes_; ++lane)
+    for (size_t i = 0; i < plane_.size(); ++i) rows_[lane * plane_.size() + i] = plane_[i][lane];
+}
+
 ConstantValues::ConstantValues(const Executable& executable) : value_(executable.at(Rate::constant).values()) {
   const Stage& stage = executable.at(Rate::constant);
   for (size_t i = 0; i < stage.kept.size(); ++i) {
@@ -94,7 +119,7 @@ void run_constants(const Executable& executable, ConstantValues& constants, Regi
   const Stage& stage = executable.at(Rate::constant);
   const BatchPlaces places{constants.data(), nullptr, nullptr};
   const BatchBlocks blocks(0, kBlockLanes);
-  run_batch(stage, places, blocks, registers);
+  run_batch(executable, Rate::constant, places, blocks, registers);
   for (size_t i = 0; i < stage.kept.size(); ++i)
     if (stage.kept_from[i].place == Place::lanes)
       constants.data()[stage.inputs.size() + i] = registers.data()[stage.kept_from[i].slot * kBatchLanes];
@@ -102,13 +127,14 @@ void run_constants(const Executable& executable, ConstantValues& constants, Regi
 
 void run_lights(const Executable& executable, const ConstantValues& constants, LaneValues& lights,
                 Registers& registers) {
-  run_side_by_side(executable.at(Rate::light), {constants.data(), lights.planes(), nullptr}, lights, registers);
+  run_side_by_side(executable, Rate::light, {constants.data(), lights.planes(), nullptr}, lights, registers);
+  lights.make_rows();  // fast path
 }
 
 void run_surfaces(const Executable& executable, const ConstantValues& constants, LaneValues& surfaces,
                   float* const* start, Registers& registers) {
   const BatchPlaces places{constants.data(), surfaces.planes(), nullptr};
-  run_side_by_side(executable.at(Rate::surface), places, surfaces, registers);
+  run_side_by_side(executable, Rate::surface, places, surfaces, registers);
   if (start == nullptr) return;
   for (size_t first = 0; first < surfaces.lanes(); first += kBatchLanes)
     for (int c = 0; c < 3; ++c)
@@ -118,12 +144,12 @@ void run_surfaces(const Executable& executable, const ConstantValues& constants,
 
 PairResults run_pairs(const Executable& executable, const ConstantValues& constants, const LaneValues& lights,
                       const LaneValues& surfaces, std::span<const PairBlock> pairs, Registers& registers) {
-  const BatchPlaces places{constants.data(), surfaces.planes(), lights.planes()};
+  const BatchPlaces places{constants.data(), surfaces.planes(), lights.planes(), lights.rows()};
   BatchBlocks blocks;
   blocks.count = pairs.size();
   for (size_t k = 0; k < pairs.size(); ++k)
-    blocks.plane_lane[k] = pairs[k].first_pixel, blocks.light[k] = pairs[k].light;
-  run_batch(executable.at(Rate::pair), places, blocks, registers);
+    blocks.plane_lane[k] = pairs[k].first_pixel, blocks.light[k] = pairs[k].light, blocks.wanted[k] = pairs[k].wanted;
+  run_batch(executable, Rate::pair, places, blocks, registers);
   const float* lanes[kStartOutput];
   for (int i = 0; i < kStartOutput; ++i)
     lanes[i] = lanes_of_output(executable, i, Rate::pair, places, blocks, registers);
@@ -149,7 +175,7 @@ void run_finish(const Executable& executable, const ConstantValues& constants, c
   const BatchPlaces places{constants.data(), planes.data(), nullptr};
   for (size_t first = 0; first < surfaces.lanes(); first += kBatchLanes) {
     const BatchBlocks blocks(first, surfaces.lanes());
-    run_batch(executable.at(Rate::sum), places, blocks, registers);
+    run_batch(executable, Rate::sum, places, blocks, registers);
     for (int c = 0; c < 4; ++c)
       copy_value(place_of_output(executable, kFinishOutput + c, Rate::sum), places, blocks, registers,
                  finish[c] + first);
@@ -164,7 +190,7 @@ std::array<const float*, 4> run_finish(const Executable& executable, const Const
   BatchBlocks blocks;
   blocks.count = of.size();
   for (size_t k = 0; k < of.size(); ++k) blocks.plane_lane[k] = of[k].first_pixel;
-  run_batch(executable.at(Rate::sum), places, blocks, registers);
+  run_batch(executable, Rate::sum, places, blocks, registers);
   std::array<const float*, 4> lanes;
   for (int c = 0; c < 4; ++c)
     lanes[size_t(c)] = lanes_of_output(executable, kFinishOutput + c, Rate::sum, places, blocks, registers);

@@ -15,17 +15,22 @@ struct alignas(64) LaneBlock {
   float lane[kBlockLanes];
 };
 
-/// Registers for one thread, and room for outputs that are computed once a light, a pixel or a frame.
+/// Registers for one thread, room for outputs that are computed once a light, a pixel or a frame, and machine code's.
 class Registers {
  public:
   explicit Registers(const Executable& executable)
-      : count_(executable.registers()), blocks_((count_ + kOutputCount) * kBatchBlocks) {}
+      : count_(executable.registers()),
+        blocks_((count_ + kOutputCount) * kBatchBlocks + executable.frame_blocks()),
+        results_(executable.program.nodes.size()) {}
   float* data() { return blocks_.data()->lane; }
   float* output(int i) { return data() + (count_ + size_t(i)) * kBatchLanes; }
+  float* frame() { return output(kOutputCount); }
+  float** results() { return results_.data(); }
 
  private:
   size_t count_;
   std::vector<LaneBlock> blocks_;
+  std::vector<float*> results_;
 };
 
 /// Values of one rate, a plane each, of a number of lanes that is a multiple of kBlockLanes. The caller points the
@@ -37,11 +42,14 @@ class LaneValues {
   size_t lanes() const { return lanes_; }
   const float* const* planes() const { return plane_.data(); }
   float* kept(size_t i) { return blocks_.data()[i * (lanes_ / kBlockLanes)].lane; }
+  const float* rows() const { return rows_.data(); }
+  void make_rows();  ///< copies all values, those of a lane side by side
 
  private:
   size_t lanes_;
   std::vector<LaneBlock> blocks_;
   std::vector<const float*> plane_;
+  std::vector<float> rows_;
 };
 
 /// Values of rate `constant`: the caller sets those of Stage::inputs. Integers and booleans are words of bits.
@@ -70,6 +78,7 @@ void run_surfaces(const Executable& executable, const ConstantValues& constants,
 struct PairBlock {
   uint32_t first_pixel;  ///< a multiple of kBlockLanes
   uint32_t light;
+  uint32_t wanted = 0xFFFF;  ///< lanes whose results are asked for, bit by bit; others may be left out
 };
 
 /// What a batch of pairs adds, kBlockLanes lanes for each of its blocks. It lies in the registers, until these are used
@@ -79,7 +88,7 @@ struct PairResults {
   const float* reaches;  ///< words, 0 where the light does not reach the pixel
 };
 
-/// At most kBatchBlocks pairs of blocks. Every lane is computed, whether the caller wants it or not.
+/// At most kBatchBlocks pairs of blocks.
 PairResults run_pairs(const Executable& executable, const ConstantValues& constants, const LaneValues& lights,
                       const LaneValues& surfaces, std::span<const PairBlock> pairs, Registers& registers);
 

@@ -145,15 +145,6 @@ HWY_NOINLINE void lanes_2(F f, const CodeView& view, const Instruction& one) {
   each_2(f, lanes_of(view, one.from[0]), lanes_of(view, one.from[1]), view, register_of(view, one.to));
 }
 
-/// Words one by one, by F::of.
-template <class F>
-HWY_NOINLINE void words(const CodeView& view, const Instruction& one) {
-  const auto* const a = reinterpret_cast<const uint32_t*>(register_of(view, one.from[0].slot));
-  const auto* const b = reinterpret_cast<const uint32_t*>(register_of(view, one.from[1].slot));
-  auto* const to = reinterpret_cast<uint32_t*>(register_of(view, one.to));
-  for (size_t i = 0; i < view.blocks * kBlockLanes; ++i) to[i] = F::of(a[i], b[i]);
-}
-
 }  // namespace trueshade::programs::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif  // per-target include guard

@@ -142,7 +142,7 @@ inline void ProgramDraws::add(int first, const ListedLight& light, unsigned pixe
 inline void ProgramDraws::run() {
   if (batch_.count == 0) return;
   const programs::PairResults results = batch_.run(program_, work_, t_.counts);
-  for (size_t k = 0; k < batch_.count; ++k) count(results, k * kBlockPixels, batch_.pixels[k], batch_.pair[k].first_pixel);
+  for (size_t k = 0; k < batch_.count; ++k) count(results, k * kBlockPixels, batch_.pair[k].wanted, batch_.pair[k].first_pixel);
   std::array<const float*, 4> made{results.light[0], results.light[1], results.light[2], nullptr};
   if (finishes_) {
     for (size_t k = 0; k < batch_.count; ++k)
@@ -156,7 +156,7 @@ inline void ProgramDraws::run() {
     const size_t at = batch_.pair[k].first_pixel, lane = k * kBlockPixels;
     const float* const source[4] = {made[0] + lane, made[1] + lane, made[2] + lane,
                                     finishes_ ? made[3] + lane : alpha(t_.surface, at)};
-    blend(source, batch_.pixels[k], at);
+    blend(source, batch_.pair[k].wanted, at);
     batched_[at / kBlockPixels] = false;
   }
   batch_.count = 0;

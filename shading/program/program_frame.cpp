@@ -128,7 +128,10 @@ ProgramFrame::ProgramFrame(const Scene& scene, const Pipeline& pipeline, Unlit u
       reads_(program_reads(executable_->program.name, input_names(*executable_))),
       constants_(*executable_) {
   require_fields(executable_->program.name, reads_.captured, there);
-  for (const Material& m : scene.materials) unlit_.push_back(m.unlit && unlit == Unlit::shows_albedo);
+  for (const Material& m : scene.materials) {
+    unlit_.push_back(m.unlit && unlit == Unlit::shows_albedo);
+    has_unlit_ = has_unlit_ || unlit_.back() != 0;
+  }
   set_constants(scene, pipeline);
   set_lights(scene);
 }

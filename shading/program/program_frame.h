@@ -35,6 +35,7 @@ class ProgramFrame {
   const programs::ConstantValues& constants() const { return constants_; }
   const programs::LaneValues& lights() const { return *lights_; }
   const ProgramReads& reads() const { return reads_; }
+  bool has_unlit() const { return has_unlit_; }  ///< some material is
   /// Shows its colour, whatever the lights. A capture's material may be none of the scene's.
   bool is_unlit(uint32_t material) const { return material < unlit_.size() && unlit_[material]; }
 
@@ -51,6 +52,7 @@ class ProgramFrame {
   std::vector<programs::LaneBlock> light_planes_;
   std::unique_ptr<programs::LaneValues> lights_;
   std::vector<uint8_t> unlit_;
+  bool has_unlit_ = false;
 };
 
 }  // namespace trueshade

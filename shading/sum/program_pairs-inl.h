@@ -26,13 +26,9 @@ static_assert(programs::kBlockLanes == kBlockPixels);
 /// A batch of pairs, and the pixels of each that the light is brought to.
 struct PairBatch {
   programs::PairBlock pair[kBatchBlocks];
-  unsigned pixels[kBatchBlocks];
   size_t count = 0;
 
-  void add(int first_pixel, uint32_t light, unsigned of_block) {
-    pair[count] = {uint32_t(first_pixel), light}, pixels[count] = of_block;
-    ++count;
-  }
+  void add(int first_pixel, uint32_t light, unsigned pixels) { pair[count++] = {uint32_t(first_pixel), light, pixels}; }
   programs::PairResults run(const ProgramFrame& program, ProgramWork& work, LightCounts& counts) const {
     counts.evaluated_pairs += count * kBlockPixels;
     return run_pairs(program.executable(), program.constants(), program.lights(), work.surfaces, {pair, count},
@@ -65,28 +61,42 @@ struct PairVector {
   }
 
   void count(ColorTile& out, size_t at) const {
-    const DF d;
-    const DI di;
     int32_t* const count = reinterpret_cast<int32_t*>(out.light_count + at);
-    const auto one = hn::BitCast(di, hn::IfThenElseZero(counted, hn::BitCast(d, hn::Set(di, 1))));
-    hn::Store(hn::Add(hn::Load(di, count), one), di, count);
+    hn::Store(counted_with(hn::Load(DI(), count)), DI(), count);
+  }
+  hn::Vec<DI> counted_with(hn::Vec<DI> count) const {
+    return hn::Sub(count, hn::VecFromMask(DI(), hn::RebindMask(DI(), counted)));
   }
 };
 
+/// Adds the results of pairs of one block, in their order, to the sums of a vector of its pixels, those from lane i on.
+inline void add_pairs_of_block(const PairBatch& batch, size_t first, size_t end, size_t i,
+                               const programs::PairResults& results, bool reaches, ColorTile& out) {
+  const DF d;
+  const DI di;
+  const size_t at = batch.pair[first].first_pixel + i;
+  int32_t* const count = reinterpret_cast<int32_t*>(out.light_count + at);
+  VF sum[3];
+  for (int c = 0; c < 3; ++c) sum[c] = hn::Load(d, out.plane[c] + at);
+  hn::Vec<DI> lights = hn::Load(di, count);
+  for (size_t k = first; k < end; ++k) {
+    const unsigned pixels = batch.pair[k].wanted >> i;
+    if (hn::MaxLanes(d) < size_t(kBlockPixels) && (pixels & ((1u << hn::MaxLanes(d)) - 1)) == 0) continue;
+    const PairVector of(results, k * kBlockPixels + i, pixels, reaches);
+    for (int c = 0; c < 3; ++c) sum[c] = hn::IfThenElse(of.adds, hn::Add(sum[c], of.light[c]), sum[c]);
+    lights = of.counted_with(lights);
+  }
+  for (int c = 0; c < 3; ++c) hn::Store(sum[c], d, out.plane[c] + at);
+  hn::Store(lights, di, count);
+}
+
 /// Adds the results of a batch to the sums in `out`, which the pairs before it have been added to.
 inline void add_pairs(const PairBatch& batch, const programs::PairResults& results, bool reaches, ColorTile& out) {
-  const DF d;
-  for (size_t k = 0; k < batch.count; ++k)
-    for (size_t i = 0; i < size_t(kBlockPixels); i += hn::Lanes(d)) {
-      const PairVector of(results, k * kBlockPixels + i, batch.pixels[k] >> i, reaches);
-      const size_t at = batch.pair[k].first_pixel + i;
-      for (int c = 0; c < 3; ++c) {
-        float* const sum = out.plane[c] + at;
-        const VF before = hn::Load(d, sum);
-        hn::Store(hn::IfThenElse(of.adds, hn::Add(before, of.light[c]), before), d, sum);
-      }
-      of.count(out, at);
-    }
+  for (size_t first = 0, end = 0; first < batch.count; first = end) {
+    while (end < batch.count && batch.pair[end].first_pixel == batch.pair[first].first_pixel) ++end;
+    for (size_t i = 0; i < size_t(kBlockPixels); i += hn::Lanes(DF()))
+      add_pairs_of_block(batch, first, end, i, results, reaches, out);
+  }
 }
 
 /// Of some pixels of a block those that a light's extent has: nearer than the root of cut2, or all where it has no

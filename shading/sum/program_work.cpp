@@ -9,16 +9,30 @@ ProgramWork& program_work(const ProgramFrame& program, int tile, std::shared_ptr
   return *kept;
 }
 
-void give_surfaces(const ProgramFrame& program, const SurfaceTile& surface, int tile, float* const* start,
-                   ProgramWork& work) {
+namespace {
+
+/// The numbers of the tile's columns and rows, pixel by pixel.
+void number_pixels(const SurfaceTile& surface, int tile, ProgramWork& work) {
   for (int y = 0; y < tile; ++y)
     for (int x = 0; x < tile; ++x) {
       const int i = tile_index(tile, x, y);
       work.pixel[0][i] = uint32_t(surface.x + x), work.pixel[1][i] = uint32_t(surface.y + y);
     }
+}
+
+}  // namespace
+
+void give_surfaces(const ProgramFrame& program, const SurfaceTile& surface, int tile, float* const* start,
+                   ProgramWork& work) {
   const uint32_t* const pixels[2] = {work.pixel[0], work.pixel[1]};
   const size_t inputs = program.executable().at(programs::Rate::surface).inputs.size();
-  for (size_t i = 0; i < inputs; ++i) work.surfaces.set_input(i, program.plane_of(i, surface, pixels));
+  bool reads_pixels = false;
+  for (size_t i = 0; i < inputs; ++i) {
+    const void* const plane = program.plane_of(i, surface, pixels);
+    reads_pixels = reads_pixels || plane == pixels[0] || plane == pixels[1];
+    work.surfaces.set_input(i, plane);
+  }
+  if (reads_pixels) number_pixels(surface, tile, work);
   run_surfaces(program.executable(), program.constants(), work.surfaces, start, work.registers);
 }
 

@@ -6,6 +6,7 @@
 
 #include "judge/bounds/program_bounds.h"
 #include "programs/front/light_program.h"
+#include "programs/run/fast/machine_stages.h"
 #include "tests/fuzz/promises.h"
 #include "tests/fuzz/targets.h"
 #include "tests/programs/run_program.h"
@@ -89,6 +90,14 @@ void check_bounds(const programs::Program& program) {
   oracle::LitRange together[1];
   bounds.at(surfaces, lights, block, together);
   const programs::Numbers made = programs::run_once(program, numbers);
+  {
+    const programs::MachineCodeScope interpreted(false);
+    for (const auto& [name, bits] : programs::run_once(program, numbers)) {
+      const float a = programs::float_of(bits), b = programs::float_of(made.at(name));
+      promise(bits == made.at(name) || (a != a && b != b),
+              "machine code of a light program has the interpreter's bits");
+    }
+  }
   if (!reads_given_alone(program) || program.defines_start) return;
   for (const oracle::LitRange* range : {&alone, static_cast<const oracle::LitRange*>(together)}) {
     if (range->undefined || range->branches.size() > 4) continue;

@@ -10,11 +10,11 @@ mkdir "$work/source"
 tar -C "$source" -cf - --exclude=./build --exclude=./.git . | tar -xf - -C "$work/source"
 cd "$work/source"
 
-mapfile -t folders < <(find raster shading -type d \( -name fast -o -name bounded \))
-lines=$({ grep -rhoE '// fast path$' core raster shading || true; } | wc -l)
+mapfile -t folders < <(find programs raster shading -type d \( -name fast -o -name bounded \))
+lines=$({ grep -rhoE '// fast path$' core programs raster shading || true; } | wc -l)
 ((${#folders[@]} > 0 && lines > 0)) || { echo "no fast path was found: the marks and folders have other names"; exit 1; }
 rm -r "${folders[@]}"
-find core raster shading -name '*.h' -o -name '*.cpp' | xargs sed -i '\,// fast path$,d'
+find core programs raster shading -name '*.h' -o -name '*.cpp' | xargs sed -i '\,// fast path$,d'
 echo "removed: ${folders[*]}, and $lines lines"
 
 options=(-DCMAKE_CXX_COMPILER="$compiler" -DTRUESHADE_SIMD=native -DTRUESHADE_TESTS=OFF -DTRUESHADE_PARTS=picture)

@@ -1,5 +1,6 @@
 // The product's programs against the oracle's interpreter of SPIR-V: two readings of one contract, by two hands, which
-// share no code. The texts are made at random, and both are given the same bits.
+// share no code. The texts are made at random, and both are given the same bits, the product's as machine code, where
+// the target has it, and interpreted.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "core/simd/simd_target.h"
 #include "oracle/spirv_interpreter.h"
 #include "programs/front/light_program.h"
+#include "programs/run/fast/machine_stages.h"
 #include "tests/catch.hpp"
 #include "tests/programs/oracle/compiled_light.h"
 #include "tests/programs/oracle/random_program.h"
@@ -96,8 +98,11 @@ Agreement agreement_of(uint64_t from, uint64_t to, std::string_view target) {
     using testing::InputsLike;
     for (const InputsLike like : {InputsLike::plain, InputsLike::mixed, InputsLike::any_bits}) {
       const oracle::SpirvScalars inputs = random_inputs(random, like, random_text.parameters);
-      compare(seed, outputs_of(run_spirv(module, inputs)),
-              run_once(*program, numbers_of(inputs, random_text.parameters)), total);
+      const Numbers expected = outputs_of(run_spirv(module, inputs));
+      for (const bool machine_code : {true, false}) {
+        const programs::MachineCodeScope way(machine_code);
+        compare(seed, expected, run_once(*program, numbers_of(inputs, random_text.parameters)), total);
+      }
     }
     ++total.compared;
   }

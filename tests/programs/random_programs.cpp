@@ -3,6 +3,7 @@
 #include "core/simd/simd_target.h"
 #include "programs/building/node_builder.h"
 #include "programs/building/specialised.h"
+#include "programs/run/fast/machine_stages.h"
 #include "tests/catch.hpp"
 #include "tests/programs/plain_operations.h"
 #include "tests/programs/random_words.h"
@@ -185,12 +186,14 @@ void check_program(const Program& program, RandomWords& random) {
 TEST_CASE("Random programs of all operations and rates have the bits of their nodes, one after the other") {
   for (uint32_t seed = 0; seed < 150; ++seed) {
     const Program program = RandomProgram(seed).made();
-    for (const std::string_view target : simd_targets()) {
-      const SimdScope scope(target);
-      RandomWords random(seed);
-      INFO("seed " << seed << " on " << target << "\n" << text_of(program));
-      check_program(program, random);
-    }
+    for (const std::string_view target : simd_targets())
+      for (const bool machine_code : {true, false}) {
+        const SimdScope scope(target);
+        const MachineCodeScope way(machine_code);
+        RandomWords random(seed);
+        INFO("seed " << seed << " on " << target << ", machine code " << machine_code << "\n" << text_of(program));
+        check_program(program, random);
+      }
   }
 }
 
