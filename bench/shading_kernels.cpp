@@ -13,7 +13,6 @@
 // SIMD targets by --benchmark_filter: names of what has kernels end in one.
 #include <benchmark/benchmark.h>
 
-#include <cstring>
 #include <functional>
 #include <memory>
 #include <string>
@@ -37,8 +36,7 @@ constexpr int kTile = 64, kPixels = kTile * kTile, kLights = 64;
 
 /// A level floor of 64 x 64 units that fills a tile, one unit a pixel, seen from above.
 std::unique_ptr<SurfaceTile> level_floor() {
-  auto out = std::make_unique<SurfaceTile>();
-  std::memset(out.get(), 0, sizeof *out);
+  auto out = std::make_unique<SurfaceTile>();  // of zeros
   out->covered_pixels = kPixels;
   for (int i = 0; i < kPixels; ++i) {
     out->covered[i] = -1;

@@ -23,7 +23,7 @@ int in_filtered_process(uint32_t action, uint32_t protection, const Body& body, 
     const uint32_t third = offsetof(seccomp_data, args) + 2 * sizeof(uint64_t);  // its low half
     sock_filter code[] = {BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
                           BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, __NR_mprotect, 1, 0),
-                          BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, maps_too ? __NR_mmap : __NR_mprotect, 0, 4),
+                          BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, uint32_t(maps_too ? __NR_mmap : __NR_mprotect), 0, 4),
                           BPF_STMT(BPF_LD | BPF_W | BPF_ABS, third),
                           BPF_STMT(BPF_ALU | BPF_AND | BPF_K, protection),
                           BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, protection, 0, 1),
