@@ -173,7 +173,7 @@ size_t Executable::registers() const {
 size_t Executable::frame_blocks() const {
   size_t blocks = registers();
   for (const Stage& one : stage) blocks += one.values();
-  return 2 * blocks;  // at most two at a time
+  return 2 * blocks + 3;  // at most two at a time; and what a function is given
 }
 
 namespace {

@@ -39,8 +39,8 @@ struct LightLists {
 
 /// Work that a light pass may leave out. No shortcut changes a bit of what is stored.
 struct LightShortcuts {
-  bool culling = true;          ///< leave out lights that are proved to add nothing, by tile, by region and by vector
-  bool compiled = true;         ///< use the kernel compiled for the model's shape, where there is one
+  bool culling = true;   ///< leave out lights that are proved to add nothing, by tile, by region and by vector
+  bool compiled = true;  ///< use the kernel compiled for the model's shape, where there is one
   std::optional<Format> codes = std::nullopt;  ///< only the sums' codes in this fixed-point format have to be right
   bool light_alone = false;  ///< of a light program: what lights add is wanted, without what sums start from and become
 };

@@ -151,6 +151,56 @@ TEST_CASE("Machine code of every operation has the bits of its plain formula") {
   }
 }
 
+TEST_CASE("Machine code gives functions numbers of the text, of the frame and of lights as lanes") {
+  const char* const bodies[] = {
+      "return pow(vec3(1.7, abs(s.position.y), 0.3), vec3(s.normal.x, l.spot_exponent, l.range));",
+      "return atan(vec3(2.5, l.range, s.position.x), vec3(s.position.x, s.position.y, l.spot_exponent));",
+      "return vec3(pow(l.range, abs(s.position.x)), fma(l.range, s.position.x, 0.7), pow(v.time + 2.0, "
+      "s.position.y));"};
+  for (const std::string_view target : machine_targets())
+    for (const char* body : bodies) {
+      const SimdScope scope(target);
+      const Program program = program_of_light(body);
+      RandomWords random(3);
+      for (int round = 0; round < 50; ++round) {
+        std::map<std::string, float> inputs;
+        for (const ProgramInput& input : program.inputs) inputs[input.name] = float(random() % 4096) / 512.0f - 2.0f;
+        const std::vector<float> made = light_of(program, inputs);
+        const MachineCodeScope interpreted(false);
+        const std::vector<float> wanted = light_of(program, inputs);
+        INFO(target << ": " << body);
+        for (size_t c = 0; c < 3; ++c) REQUIRE(same(bits_of(made[c]), bits_of(wanted[c])));
+      }
+    }
+}
+
+TEST_CASE("Machine code chooses between booleans that were put away, by one that was") {
+  for (const std::string_view target : machine_targets()) {
+    const SimdScope scope(target);
+    NodeBuilder builder("choice", 1000);
+    NodeId a[6], truth[3];
+    for (int k = 0; k < 6; ++k) a[k] = builder.input("a" + std::to_string(k), Type::f32, Rate::surface);
+    for (int k = 0; k < 3; ++k) truth[k] = builder.make(Op::f_lt, a[k], a[k + 3]);
+    const NodeId called = builder.make(Op::sin, a[0]);  // puts all away
+    const NodeId truths = builder.make(Op::b_and, builder.make(Op::f_lt, called, a[1]), truth[2]);
+    const NodeId chosen = builder.select(truth[0], truth[1], truths);
+    const NodeId again =
+        builder.select(chosen, builder.make(Op::b_not, truth[2]), builder.make(Op::b_or, truth[0], truths));
+    const NodeId both = builder.make(Op::f_add, as_float(builder, chosen),
+                                     builder.make(Op::f_mul, as_float(builder, again), builder.number(2.0f)));
+    const Executable executable = executable_of(program_of(builder, both));
+    RandomWords random(31);
+    for (int round = 0; round < 50; ++round) {
+      const auto planes = random_planes(6, random);
+      const std::vector<uint32_t> made = started(executable, planes);
+      const MachineCodeScope interpreted(false);
+      const std::vector<uint32_t> wanted = started(executable, planes);
+      INFO(target);
+      for (size_t i = 0; i < kPixels; ++i) REQUIRE(made[i] == wanted[i]);
+    }
+  }
+}
+
 TEST_CASE("Powers of integers that the text says have the bits of pow") {
   for (const std::string_view target : machine_targets())
     for (const int power : {0, 1, 2, 3, 5, 16, 31, 100, 8192}) {

@@ -212,9 +212,10 @@ class StageCompiler : private StageOperands {
   void write_choice(uint32_t i) {
     const bool or_zero = literal(instruction(i).from[2]) == 0u;
     if (asm_.wide()) {
-      const Opmask condition = in_mask(i, 0, asm_.k7);
+      // What is chosen may be masks too, which k7 brings to registers: the condition comes last.
       const Xmm either = in_register(i, or_zero ? 1 : 2, 1);
       const AnyOperand a = or_zero ? AnyOperand(either) : anywhere(i, 1, 2);
+      const Opmask condition = in_mask(i, 0, asm_.k7);
       const Xmm to = taken(i, i, false);
       return or_zero ? asm_.vmovaps(to | condition | asm_.T_z, either)
                      : asm_.vblendmps(to | condition, either, operand(a));
@@ -267,9 +268,12 @@ class StageCompiler : private StageOperands {
     for (int reg = 0; reg < kMasks; ++reg)
       if (const ValueId value = masks_->held(reg); value != kNone) put_away_mask(value, reg, i);
     for (size_t k = 0; k < std::size(pointer); ++k) {
-      const size_t source = k < source_count(one) ? k : 0;
-      const bool constant = one.from[source].place == Place::constant;
-      asm_.lea(pointer[k], asm_.ptr[constant ? asm_.r13 + 4 * one.from[source].slot : given(i, source).at]);
+      const Given from = given(i, k < source_count(one) ? k : 0);
+      if (from.is_number) {
+        load(asm_.scratch(0), from);
+        asm_.vmovaps(asm_.ptr[argument(k)], asm_.scratch(0));
+      }
+      asm_.lea(pointer[k], asm_.ptr[from.is_number ? argument(k) : from.at]);
     }
     const bool same_exponent = one.op == Op::pow && one.from[1].place == Place::constant;
     asm_.lea(asm_.rcx, asm_.ptr[spilled(i)]);

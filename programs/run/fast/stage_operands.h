@@ -11,7 +11,7 @@ namespace trueshade::programs {
 
 /// Where the operands of a stage's instructions are while it is written. The frame has, 64 bytes each, the constants
 /// that AVX2 reads, the planes of the turn's blocks, and for each block a place for each of the interpreter's
-/// registers, where a value goes that has no register here.
+/// registers, where a value goes that has no register here, and three for numbers that functions are given.
 class StageOperands {
  protected:
   StageOperands(const Executable& executable, Rate rate, VectorAssembler& to);
@@ -29,6 +29,9 @@ class StageOperands {
   Xbyak::RegExp spilled(ValueId value) const {
     return frame(first_spill_ + block(value) * stage_.registers + instruction(value).to);
   }
+
+  /// Where a number that a function is given becomes lanes.
+  Xbyak::RegExp argument(size_t k) const { return frame(first_spill_ + turn_blocks_ * stage_.registers + uint32_t(k)); }
 
   /// Of a step: its instruction, and its block among the turn's.
   const Instruction& instruction(uint32_t step) const { return stage_.code[step / turn_blocks_]; }
@@ -53,6 +56,7 @@ class StageOperands {
   /// The register that a value gets; what held it goes to the frame.
   Xbyak::Xmm taken(ValueId value, uint32_t i, bool loading);
   void store(ValueId value, int reg);
+  void load(const Xbyak::Xmm& to, const Given& from);
 
   /// Whether a value is a mask: of AVX-512 the results of comparisons, and what is made of them.
   bool is_mask(ValueId value) const;
@@ -82,7 +86,6 @@ class StageOperands {
 
  private:
   uint32_t blocks_a_turn() const;
-  void load(const Xbyak::Xmm& to, const Given& from);
 };
 
 }  // namespace trueshade::programs

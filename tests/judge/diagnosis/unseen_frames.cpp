@@ -120,10 +120,10 @@ oracle::Capture stored_with(const Subject& subject, std::string_view name, const
         plane.set_code(x, y, c, bits);
       }
     }
-  const GivenSurfaces given{capture.plane("depth"),    capture.plane("id.object"),
-                            capture.plane("position"), capture.plane("normal"),
-                            capture.plane("albedo"),   capture.plane("specular"),
-                            capture.plane("emission"), subject.pipeline.geometry.clear_depth};
+  GivenSurfaces given{capture.plane("depth"),  capture.plane("id.object"), capture.plane("position"),
+                      capture.plane("normal"), capture.plane("albedo"),    capture.plane("specular"),
+                      capture.plane("emission")};
+  given.clear_depth = subject.pipeline.geometry.clear_depth;
   capture.color = light_surfaces(subject.scene, subject.pipeline, {}, given).color;
   return capture;
 }
