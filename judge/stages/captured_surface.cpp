@@ -66,8 +66,7 @@ void CapturedSurface::find_fields(const Scene& scene, const Capture& capture) {
   const bool unlit =
       std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.unlit; });
   uv_ = reads.uv ? required(capture, "uv") : PlaneView{};
-  material_ = unlit || reads.material ? required(capture, "id.material") : PlaneView{};
-  if (reads.object) required(capture, "id.object");
+  material_ = unlit ? required(capture, "id.material") : plane("id.material");
   metallic_ = plane("metallic"), roughness_ = plane("roughness"), occlusion_ = plane("occlusion");
   uv1_ = plane("uv1"), tangent_ = plane("tangent");
   CapturedFields there{bool(uv1_), bool(tangent_), {}};
@@ -196,8 +195,7 @@ Bounded doubled_normal(const Bounded& fetched, const Arithmetic& arithmetic) {
 }
 
 void require_planes_of(const ProgramBounds& program, const Capture& capture) {
-  for (const auto& [field, plane] :
-       {std::pair("surface.uv", "uv"), {"surface.material", "id.material"}, {"surface.object", "id.object"}})
+  for (const auto& [field, plane] : {std::pair("surface.material", "id.material"), {"surface.object", "id.object"}})
     if (program.reads(field) && capture.plane(plane) == nullptr)
       throw Error(ErrorKind::bad_input, capture.name + ": plane " + plane, "is missing",
                   "the light program reads " + std::string(field));

@@ -79,22 +79,24 @@ TEST_CASE("What is wrong with a light program is said with its place or its opti
   CHECK(has(blends.err, "deferred-loop"));
   write("version.glsl", "#version 450\nvec3 light(Surface s, Light l, View v) { return vec3(1); }\n");
   write("marked.glsl", "\xEF\xBB\xBFvec3 light(Surface s, Light l, View v) { return vec3(1); }\n");
+  const auto drawn_by = [](const std::string& command, const std::string& file) {
+    std::vector<std::string> words{command, "builtin:cornell", "--light-shader", file};
+    if (command == "explain") words.insert(words.end(), {"--pixel", "9,9"});
+    if (command == "render" || command == "glsl") words.insert(words.end(), {"-o", command + ".png"});
+    return run(words);
+  };
   for (const char* const command : {"render", "glsl"}) {
-    std::vector<std::string> words{command, "builtin:cornell", "--light-shader", "version.glsl"};
-    const Outcome version = run(words);
+    const Outcome version = drawn_by(command, "version.glsl");
     CHECK(version.exit_code == 3);
     CHECK(has(version.err, "version.glsl:1:"));
     CHECK(has(version.err, "leave the line out"));
-    words.back() = "marked.glsl";
-    const Outcome marked = run(words);
+    const Outcome marked = drawn_by(command, "marked.glsl");
     CHECK(marked.exit_code == 3);
     CHECK(has(marked.err, "marked.glsl:1:1: begins with a byte order mark"));
   }
   write("taken.glsl", "\nconst float base = 0.5;\nvec3 light(Surface s, Light l, View v) { return vec3(base); }\n");
   for (const char* const command : {"render", "glsl", "validate", "explain"}) {
-    std::vector<std::string> words{command, "builtin:cornell", "--light-shader", "taken.glsl"};
-    if (command == std::string("explain")) words.insert(words.end(), {"--pixel", "9,9"});
-    const Outcome taken = run(words);
+    const Outcome taken = drawn_by(command, "taken.glsl");
     INFO(command << taken.err);
     CHECK(taken.exit_code == 3);
     CHECK(has(taken.err, "taken.glsl:2"));
