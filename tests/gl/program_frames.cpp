@@ -80,7 +80,7 @@ void check_all(const ProgramDrawer& drawn, const Scene& scene, Pipeline pipeline
   for (const Strategy strategy :
        {Strategy::deferred_loop, Strategy::forward_loop, Strategy::deferred_volumes, Strategy::forward_multipass}) {
     pipeline.strategy = strategy;
-    if (blends_lights(strategy)) pipeline.target = Format::rgba32f;  // in codes each light may round to another one
+    if (blends_lights(strategy)) in_floats(pipeline);  // in codes each light may round to another one
     check(drawn, scene, pipeline, bound, relative);
   }
 }

@@ -3,6 +3,7 @@
 #include "core/simd/simd_target.h"
 #include "oracle/blend.h"
 #include "scenes/builtin/builtin.h"
+#include "scenes/light_models/stated_model.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"
@@ -63,7 +64,7 @@ Pipeline drawn_by(const Way& way, Pipeline p, Format target) {
   return p;
 }
 
-LightProgram program_of(const std::string& text) { return {"lights.glsl", text, {}, {}}; }
+LightProgram program_with(const std::string& text) { return {"lights.glsl", text, {}, {}}; }
 
 std::string hashes(const Frame& frame) {
   std::string all = image_hash(frame.color);
@@ -103,10 +104,33 @@ TEST_CASE("A program that states a preset's formula blends the preset's frame, b
           if (formula.text == kManyLights) planes.push_back("light.count");
           const Pipeline preset = drawn_by(way, *preset_pipeline(formula.preset), target);
           Pipeline asked = preset;
-          asked.light_program = program_of(formula.text);
+          asked.light_program = program_with(formula.text);
           INFO(name << ", " << formula.preset << ", " << way.what << ", " << info(target).name);
           CHECK(others(prepared, asked, planes, hashes(render_frame(prepared, preset, {}, planes))) == "");
         }
+  }
+}
+
+TEST_CASE("Presets whose models are programs blend their own frames, bit for bit") {
+  Scene scene = builtin_scene("cornell,lights=6");
+  for (size_t i = 0; i < scene.lights.size(); i += 2) {
+    Light& light = scene.lights[i];
+    light.type = LightType::spot, light.direction = {0.0f, -1.0f, 0.0f};
+    light.cone_rad = 0.6f, light.penumbra_rad = 0.3f, light.spot_exponent = 3.0f;
+  }
+  const PreparedScene prepared(scene);
+  const std::vector<std::string> planes{"light.1"};
+  for (const Preset& preset : presets()) {
+    // Its surfaces have metal and roughness made into another pair, which programs are not given.
+    if (preset.pipeline.light_model.specular_source == SpecularSource::metallic_roughness) continue;
+    for (const Way& way : kWays)
+      for (const Format target : {Format::rgba8, Format::rgba16f}) {
+        const Pipeline own = drawn_by(way, preset.pipeline, target);
+        Pipeline asked = own;
+        asked.light_program = program_of(own.light_model);
+        INFO(preset.name << ", " << way.what << ", " << info(target).name);
+        CHECK(others(prepared, asked, planes, hashes(render_frame(prepared, own, {}, planes))) == "");
+      }
   }
 }
 
@@ -169,7 +193,7 @@ class DullFrame {
     Pipeline p = pipeline_;
     p.strategy = is_forward(p.strategy) ? Strategy::forward_loop : Strategy::deferred_loop;
     p.target = Format::rgba32f, p.profile = NumericProfile::ideal;
-    p.light_program = program_of(text);
+    p.light_program = program_with(text);
     return render_frame(scene, p, {}, std::vector<std::string>{"id.material"});
   }
 
@@ -201,7 +225,7 @@ TEST_CASE("Draws of a program are what the sum gives of one light, blended one a
         Pipeline p = drawn_by(way, *preset_pipeline("many-lights"), target);
         p.width = 48, p.height = 40;
         if (way.alpha) p.blend = over;
-        p.light_program = program_of(std::string(kLight) + kStart + (finishes ? kFinish : ""));
+        p.light_program = program_with(std::string(kLight) + kStart + (finishes ? kFinish : ""));
         INFO(way.what << ", " << info(target).name << (finishes ? ", with finish" : ""));
         const Frame frame = render_frame(prepared, p);
         CHECK(others(prepared, p, {}, image_hash(frame.color)) == "");
@@ -235,7 +259,7 @@ TEST_CASE("Fragments that share a pixel's depth are drawn by every light of a pr
         scene.lights.back().color = glm::vec3(strength), scene.lights.back().range = 100.0f;
       }
       Pipeline p = drawn_by(kWays[0], *preset_pipeline("many-lights"), Format::rgba32f);
-      p.light_program = program_of(std::string("vec3 light(Surface s, Light l, View v) { return l.color; }") + end);
+      p.light_program = program_with(std::string("vec3 light(Surface s, Light l, View v) { return l.color; }") + end);
       const double each = *end == 0 ? 0.0 : 0.5;
       for (const std::string_view simd : simd_targets()) {
         const Frame frame = render_frame(scene, p, {.simd = simd}, std::vector<std::string>{"light.count"});
