@@ -112,7 +112,9 @@ std::string record_of(const std::string& path) {
     if (key != "trueshade:pipeline") continue;
     try {
       const Pipeline p = pipeline_from_json(value, path, presets().front().pipeline);
-      return "preset " + p.preset + ", " + std::string(name_of(p.strategy)) + ", " + std::string(info(p.target).name);
+      const std::string lights =
+          p.light_program.used() ? "light program " + p.light_program.file : "preset " + p.preset;
+      return lights + ", " + std::string(name_of(p.strategy)) + ", " + std::string(info(p.target).name);
     } catch (const Error&) {
       return {};
     }

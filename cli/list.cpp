@@ -181,6 +181,7 @@ std::string text_of(const ProgramFacts& facts) {
 void print_list(const ListOptions& options) {
   if (!options.model.empty()) {
     const ProgramFacts facts = facts_of(options.model);
+    if (options.text) return print(facts.program.text);
     return print(options.json ? json_of(facts) : text_of(facts));
   }
   print(options.json ? json_of(sections()) : text_of(sections()));

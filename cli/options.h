@@ -108,6 +108,7 @@ struct ExportOptions : LimitedOptions {
 struct ListOptions : CommonOptions {
   std::string model;  ///< of this light model or program alone, as --light-shader has it; empty: all names
   bool json = false;
+  bool text = false;  ///< of a model, its text alone
 };
 
 /// `trueshade glsl`: a pipeline's shaders and state, and with a scene the frame's data too.

@@ -40,8 +40,10 @@ CommandTable list_table(ListOptions& options) {
   for (const ShippedModel& shipped : shipped_models()) model.known_values.emplace_back(shipped.name);
   table.open_group = "Output";
   add_switch(table, "--json", options.json, "As one JSON document");
+  add_switch(table, "--text", options.text, "Of a MODEL or a preset, its GLSL alone");
   add_quiet(table, options, kOnlyAnswerHelp);
-  table.examples = {{"trueshade list gltf", "What a light model is, its parameters, and the fields that it reads."}};
+  table.examples = {{"trueshade list many-lights --text > mine.glsl", "A preset's formula, to be changed."},
+                    {"trueshade list gltf", "What a light model is, its parameters, and the fields that it reads."}};
   table.see_also = {"info"};
   table.finished = [&options]() -> Command { return options; };
   return table;

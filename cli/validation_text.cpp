@@ -293,7 +293,7 @@ std::string quotient_text(const oracle::LightQuotient& q) {
   const size_t steps = std::min(kMost, q.curve.size());
   for (size_t i = 0; i < steps; ++i) {
     const auto& step = q.curve[steps > 1 ? i * (q.curve.size() - 1) / (steps - 1) : 0];
-    curve += (i > 0 ? ", " : "") + real((step.from + step.to) / 2, "%.2g") + ": " + real(step.factor, "%.3g");
+    curve += (i > 0 ? ", " : "") + real((step.from + step.to) / 2, "%.3g") + ": " + real(step.factor, "%.3g");
   }
   return lines + verdict_row("", "times what it should be, by " + q.against + ": " + curve);
 }

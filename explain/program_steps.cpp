@@ -186,7 +186,7 @@ class Tracer {
     const Named other = leaf(n.operand[first ? 2 : 1]);
     const Named &a = first ? taken : other, &b = first ? other : taken;
     Named out = condition;
-    out.words = {operand_text(condition.words, Binding::comparison) + " is " + kName + " ? " +
+    out.words = {operand_text(condition.words, Binding::comparison) + " (" + kName + ") ? " +
                      operand_text(a.words, Binding::comparison) + " : " + operand_text(b.words, Binding::comparison),
                  Binding::choice};
     out.names.push_back({first ? "true" : "false"});

@@ -204,6 +204,8 @@ void set_time(Scene& scene, double time) {
     throw Error(ErrorKind::usage, "time", "it is no number of seconds within 1e6", "say 1.5");
   const Timeline& timeline = scene.timeline;
   scene.time = timeline.stands_at.value_or(time);
+  if (!(std::fabs(scene.time) <= kLatestTime))
+    throw Error(ErrorKind::bad_input, "stands_at", "it is no number of seconds within 1e6", "say 1.5");
   move_hierarchy(scene, time);
   for (const MovingInstance& moving : timeline.instances) {
     const Placement placement = copied(placement_at(timeline.motions[moving.motion], time), moving.copy);

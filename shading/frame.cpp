@@ -116,7 +116,8 @@ Frame draw_surfaces(const PreparedScene& prepared, const Pipeline& asked_for, co
       with_planes_of_program(given == nullptr ? without_idle_emission(scene, asked_for) : asked_for);
   const CapturedFields there = given == nullptr ? CapturedFields() : captured_fields(*given);
   const FramePlan plan = plan_frame(scene, pipeline, asked, planes, lit, there);
-  if (given != nullptr && plan.program != nullptr) check_fields(*given, plan.program->reads(), pipeline);
+  if (given != nullptr && plan.program != nullptr)
+    check_fields(*given, plan.program->reads(), plan.program->has_unlit(), pipeline);
   const int threads = plan.execution.threads;
   check_memory(plan, pipeline, planes);
   wake_threads(threads);

@@ -80,7 +80,8 @@ struct TileStages {
   }
 
   void take_surfaces() {
-    load_surfaces(*frame.given, frame.view, rect, s.visible, s.surface);
+    const ProgramReads* const reads = plan.program != nullptr ? &plan.program->reads() : nullptr;
+    load_surfaces(*frame.given, reads, frame.view, rect, s.visible, s.surface);
     counts.covered += uint64_t(s.surface.covered_pixels);
   }
 

@@ -44,6 +44,13 @@ void check_surfaces(const GivenSurfaces& given, const Pipeline& pipeline) {
   const bool by_program = pipeline.light_program.used();  // see check_fields()
   check_plane(given.specular, "specular", !by_program && reads_specular_plane(pipeline.light_model), pipeline);
   check_plane(given.emission, "emission", false, pipeline);
+  const std::pair<const Image*, const char*> others[] = {{given.metallic, "metallic"},   {given.roughness, "roughness"},
+                                                         {given.occlusion, "occlusion"}, {given.uv1, "uv1"},
+                                                         {given.tangent, "tangent"},     {given.user[0], "user0"},
+                                                         {given.user[1], "user1"},       {given.user[2], "user2"},
+                                                         {given.user[3], "user3"},       {given.uv, "uv"},
+                                                         {given.material, "id.material"}};
+  for (const auto& [image, name] : others) check_plane(image, name, false, pipeline);
 }
 
 CapturedFields captured_fields(const GivenSurfaces& given) {
@@ -52,17 +59,12 @@ CapturedFields captured_fields(const GivenSurfaces& given) {
   return there;
 }
 
-void check_fields(const GivenSurfaces& given, const ProgramReads& reads, const Pipeline& pipeline) {
+void check_fields(const GivenSurfaces& given, const ProgramReads& reads, bool has_unlit, const Pipeline& pipeline) {
   const bool splits_metals = given.metallic != nullptr && given.roughness != nullptr;
   check_plane(given.specular, "specular", reads.gloss || (reads.metals && !splits_metals), pipeline);
   check_plane(given.object, "id.object", reads.object, pipeline);
-  check_plane(given.material, "id.material", reads.material, pipeline);
+  check_plane(given.material, "id.material", reads.material || has_unlit, pipeline);
   check_plane(given.uv, "uv", reads.uv, pipeline);
-  const std::pair<const Image*, const char*> others[] = {
-      {given.metallic, "metallic"}, {given.roughness, "roughness"}, {given.occlusion, "occlusion"},
-      {given.uv1, "uv1"},           {given.tangent, "tangent"},     {given.user[0], "user0"},
-      {given.user[1], "user1"},     {given.user[2], "user2"},       {given.user[3], "user3"}};
-  for (const auto& [image, name] : others) check_plane(image, name, false, pipeline);
 }
 
 namespace {
@@ -76,11 +78,12 @@ void load_captured(const GivenSurfaces& given, int x, int y, int i, CapturedTile
   }
 }
 
-/// Fields that light programs alone read, in place of what the planes of ours have.
-void load_fields(const GivenSurfaces& given, int x, int y, int i, SurfaceTile& out) {
+/// Fields that a light program reads, in place of what the planes of ours have.
+void load_fields(const GivenSurfaces& given, const ProgramReads& reads, int x, int y, int i, SurfaceTile& out) {
   for (int c = 0; c < 2; ++c) out.plane[kUv + c][i] = plane_value(given.uv, x, y, c, 0.0f);
-  if (given.metallic != nullptr) out.plane[kSpecular][i] = plane_value(given.metallic, x, y, 0, 0.0f);
-  if (given.roughness != nullptr) out.plane[kSpecular + 1][i] = plane_value(given.roughness, x, y, 0, 0.0f);
+  if (reads.metals && given.metallic != nullptr) out.plane[kSpecular][i] = plane_value(given.metallic, x, y, 0, 0.0f);
+  if (reads.metals && given.roughness != nullptr)
+    out.plane[kSpecular + 1][i] = plane_value(given.roughness, x, y, 0, 0.0f);
   if (given.occlusion != nullptr) out.plane[kOcclusion][i] = plane_value(given.occlusion, x, y, 0, 1.0f);
   if (given.object != nullptr) out.object[i] = given.object->code(x, y, 0);
   if (given.material != nullptr) out.material[i] = given.material->code(x, y, 0);
@@ -89,8 +92,8 @@ void load_fields(const GivenSurfaces& given, int x, int y, int i, SurfaceTile& o
 
 }  // namespace
 
-void load_surfaces(const GivenSurfaces& given, const View& view, const TileRect& rect, VisibilityTile& visible,
-                   SurfaceTile& out) {
+void load_surfaces(const GivenSurfaces& given, const ProgramReads* reads, const View& view, const TileRect& rect,
+                   VisibilityTile& visible, SurfaceTile& out) {
   const bool halved = info(given.normal->format).number_class == NumberClass::unorm;
   out.covered_pixels = 0;
   out.x = rect.x, out.y = rect.y;
@@ -118,7 +121,7 @@ void load_surfaces(const GivenSurfaces& given, const View& view, const TileRect&
         out.plane[kSpecular + c][i] = plane_value(given.specular, x, y, c, 0.0f);
         out.plane[kEmission + c][i] = plane_value(given.emission, x, y, c, c < 3 ? 0.0f : 1.0f);
       }
-      load_fields(given, x, y, i, out);
+      if (reads != nullptr) load_fields(given, *reads, x, y, i, out);
     }
   if (given.position == nullptr) positions_from_depth(view, rect, visible.depth, out);
 }

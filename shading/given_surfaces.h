@@ -34,12 +34,14 @@ void check_surfaces(const GivenSurfaces& given, const Pipeline& pipeline);
 /// The fields of captures that are there.
 CapturedFields captured_fields(const GivenSurfaces& given);
 
-/// Error(bad_input) naming a plane that a light program reads and that is not there.
-void check_fields(const GivenSurfaces& given, const ProgramReads& reads, const Pipeline& pipeline);
+/// Error(bad_input) naming a plane that a light program reads and that is not there; or that of materials, where some
+/// are unlit.
+void check_fields(const GivenSurfaces& given, const ProgramReads& reads, bool has_unlit, const Pipeline& pipeline);
 
 /// The tile's surfaces and depths from the images, in place of draw_visibility() and resolve_surfaces().
-void load_surfaces(const GivenSurfaces& given, const View& view, const TileRect& rect, VisibilityTile& visible,
-                   SurfaceTile& out);
+///   reads: of the light program; null: there is none
+void load_surfaces(const GivenSurfaces& given, const ProgramReads* reads, const View& view, const TileRect& rect,
+                   VisibilityTile& visible, SurfaceTile& out);
 
 /// Lights surfaces by the scene's lights, camera and clear colour: the light pass of render_frame(), which makes the
 /// same bits of the planes of a frame of ours. The scene's objects are not drawn. Throws as check_surfaces() does.

@@ -48,7 +48,7 @@ std::vector<float> value_for(const ModelParameter& parameter, const std::vector<
   for (const ProgramParameter& one : had) {
     if (one.name != parameter.name) continue;
     for (size_t c = 0; c < std::min(value.size(), one.value.size()); ++c)
-      if (!parameter.range || parameter.range->holds(double(one.value[c]))) value[c] = one.value[c];
+      if (!parameter.range || parameter.range->holds(one.value[c])) value[c] = one.value[c];
   }
   return value;
 }

@@ -21,9 +21,9 @@ void Session::use(ReadyModel model) {
 void Session::set_model(const std::string& name) {
   ReadyModel model = name.empty() ? ReadyModel() : ready_model(light_program_of(name));
   LightVolumes& volumes = state_.pipeline.light_volumes;
-  if (const std::optional<Pipeline> preset = preset_pipeline(state_.pipeline.preset); preset && name.empty())
+  if (const std::optional<Pipeline> preset = preset_pipeline(state_.pipeline.preset); preset)
     volumes.point = preset->light_volumes.point, volumes.spot = preset->light_volumes.spot;
-  if (!name.empty()) volumes.point = volumes.spot = LightExtent::range;
+  if (!name.empty()) end_at_range(volumes);
   use(std::move(model));
   broken_model_.reset();
   changed();
@@ -55,6 +55,7 @@ void Session::reload_model() {
       maker_.post([this, model] { take_model(std::move(*model)); });
     } catch (const Error& error) {
       maker_.post([this, broken = trueshade::viewer::broken_model(read.file, read.text, error.what())] {
+        if (state_.pipeline.light_program.file != model_file_) return;  // another one is shown by now
         problems_.push_back(broken.reason);
         broken_model_ = broken;
         ++model_revision_;

@@ -28,11 +28,11 @@ std::string tile_vertex_text(int version) {
 uniform int tile_size;
 uniform int columns;
 uniform vec2 image_size;
-flat out ivec2 range;  // first and end, in lights of `records`
+flat out ivec2 tile_lights;  // first and end, in lights of `records`
 
 void main() {
   int first = int(texelFetch(tiles, 2 * gl_InstanceID).x);
-  range = ivec2(first, first + int(texelFetch(tiles, 2 * gl_InstanceID + 1).x));
+  tile_lights = ivec2(first, first + int(texelFetch(tiles, 2 * gl_InstanceID + 1).x));
   ivec2 tile = ivec2(gl_InstanceID % columns, gl_InstanceID / columns) + ivec2(gl_VertexID & 1, gl_VertexID >> 1);
   gl_Position = vec4(vec2(tile * tile_size) / image_size * 2.0 - 1.0, 0.0, 1.0);
 }
@@ -57,7 +57,7 @@ ProgramDraw program_draw(GlDesign design) {
       return {Kind::light, what, "flat in int drawn_light;\n"};
     case GlDesign::tiled:
     case GlDesign::tiled_thin:
-      return {Kind::sum, what, "flat in ivec2 range;\n", "", "range.x", "range.y"};
+      return {Kind::sum, what, "flat in ivec2 tile_lights;\n", "", "tile_lights.x", "tile_lights.y"};
     case GlDesign::forward_plus:
       return {Kind::sum,       what,    "uniform usamplerBuffer tiles;\nuniform int tile_size;\nuniform int columns;\n",
               kTileOfFragment, "first", "end"};
@@ -74,11 +74,11 @@ std::string deferred_fragment_text(const Pipeline& p, const GlslOptions& options
   const LightModel& model = p.light_model;
   std::string text = glsl_header(options.version, "lights of the design " + std::string(name_of(design)));
   text += surface_uniforms_text(p, options);
-  if (is_tiled(design)) text += "uniform samplerBuffer records;\nflat in ivec2 range;\n";
+  if (is_tiled(design)) text += "uniform samplerBuffer records;\nflat in ivec2 tile_lights;\n";
   if (design == GlDesign::deferred_volumes) text += "uniform samplerBuffer lights;\nflat in int drawn_light;\n";
   if (design == GlDesign::deferred_loop) text += "uniform samplerBuffer lights;\nuniform int light_count;\n";
   text += lights_text(p, options, is_tiled(design) ? "records" : "lights") + read_surface_text(p, options);
-  if (is_tiled(design)) text += light_loop_text(p, "records", "range.x", "range.y");
+  if (is_tiled(design)) text += light_loop_text(p, "records", "tile_lights.x", "tile_lights.y");
   if (design == GlDesign::deferred_volumes)
     text += (limits_range(p).any() ? "  if (!in_extent(P, drawn_light)) discard;\n" : "") +
             target_text(model, lit_call_text(model, "lights", kDrawnLight));

@@ -51,6 +51,7 @@ struct Unfallen {
 };
 std::vector<Unfallen> unfallen(const LightShares& shares, const KnownFalloff& ours) {
   LightPass moved = shares.pass();
+  std::vector<size_t> place(shares.scene().lights.size());  // of each light among those of a pixel
   std::vector<Unfallen> out;
   for (const SharedPixel& p : shares.pixels()) {
     Unfallen& pixel = out.emplace_back();
@@ -65,16 +66,14 @@ std::vector<Unfallen> unfallen(const LightShares& shares, const KnownFalloff& ou
         continue;
       for (size_t k = 0; k < 3; ++k)
         moved.lights[i].position[int(k)] = float(p.surface.position[k] + half / d * way[k]);
+      place[i] = pixel.lights.size();
       pixel.lights.emplace_back(&light, d);
     }
     pixel.terms.resize(pixel.lights.size());
     for (const LightAdded& added : lights_added(moved, p.surface)) {
       const Light& light = shares.scene().lights[added.light];
-      const auto at =
-          std::find_if(pixel.lights.begin(), pixel.lights.end(), [&](const auto& l) { return l.first == &light; });
-      if (at != pixel.lights.end())
-        pixel.terms[size_t(at - pixel.lights.begin())] =
-            times(added.term, 1 / ours.at(0.5 * double(light.range), light));
+      if (place[added.light] < pixel.lights.size() && pixel.lights[place[added.light]].first == &light)
+        pixel.terms[place[added.light]] = times(added.term, 1 / ours.at(0.5 * double(light.range), light));
     }
     moved.lights = shares.pass().lights;
   }
@@ -136,6 +135,8 @@ const KnownFalloff* own_falloff(const LightShares& shares) {
 }  // namespace
 
 void name_falloff(const LightShares& shares, LightQuotient& q) {
+  constexpr size_t kMostLights = 1024;  // each is asked at each pixel
+  if (shares.scene().lights.size() > kMostLights) return;
   const KnownFalloff* const ours = own_falloff(shares);
   if (ours == nullptr) return;
   const std::vector<Unfallen> all = unfallen(shares, *ours);

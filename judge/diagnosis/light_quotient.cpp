@@ -100,14 +100,19 @@ class QuotientFit {
       if (s.nl == 0 || !(x >= quantity.edges.front() && x < quantity.edges.back())) return n;
       return size_t(std::upper_bound(quantity.edges.begin(), quantity.edges.end(), x) - quantity.edges.begin()) - 1;
     };
-    const std::vector<double> change = change_by(n, step_of);
+    std::vector<double> change = change_by(n, step_of);
     LightQuotient out;
     out.against = quantity.name;
     std::vector<size_t> seen(n + 1);
     for (const SharedPixel& p : shares_.pixels())
-      for (const Share& s : p.lights) ++seen[step_of(s)];
+      for (const Share& s : p.lights)
+        if (LightShares::squared(p, s.term) > 0) ++seen[step_of(s)];  // not where the picture is as bright as it can be
     for (size_t i = 0; i < n; ++i)
-      if (seen[i] >= kLeastSeen) out.curve.push_back({quantity.edges[i], quantity.edges[i + 1], 1 + change[i]});
+      if (seen[i] >= kLeastSeen)
+        out.curve.push_back({quantity.edges[i], quantity.edges[i + 1], 1 + change[i]});
+      else
+        change[i] = 0;
+    if (out.curve.size() < 2) return out;  // which leaves all
     out.left = shares_.left_of(shares_.error_with([&](const Share& s) {
       const size_t step = step_of(s);
       return step < n ? change[step] : 0.0;
@@ -149,17 +154,19 @@ class QuotientFit {
     }
   }
 
+  static double middle(const LightQuotient::Step& step) { return (step.from + step.to) / 2; }
+
   /// Where the factor is farthest from 1, and how large it is.
   static std::string place_text(const LightQuotient& q) {
     const auto far = [](const LightQuotient::Step& s) { return std::fabs(std::log(std::max(s.factor, 1e-3))); };
     const auto most =
         std::max_element(q.curve.begin(), q.curve.end(), [&](const auto& a, const auto& b) { return far(a) < far(b); });
-    return digits((most->from + most->to) / 2) + ", by a factor of " + digits(most->factor);
+    return digits(middle(*most)) + ", by a factor of " + digits(most->factor);
   }
 
   static std::string ends_text(const LightQuotient& q) {
-    return digits(q.curve.front().factor) + " at " + digits(q.curve.front().to) + " of the range to " +
-           digits(q.curve.back().factor) + " at " + digits(q.curve.back().from);
+    return digits(q.curve.front().factor) + " at " + digits(middle(q.curve.front())) + " of the range to " +
+           digits(q.curve.back().factor) + " at " + digits(middle(q.curve.back()));
   }
 
   const LightShares shares_;

@@ -23,9 +23,14 @@ void LightShares::add(int x, int y) {
     const double error = step / 2 + 1e-3 * std::max(std::fabs(given[k]), std::fabs(right.value[k]));
     const bool is_held = info(pass_.pipeline.target).number_class == NumberClass::unorm &&
                          (given[k] + step > 1 || right.value[k] + step > 1);
-    pixel.weight[k] = is_held || !std::isfinite(pixel.off[k]) ? 0 : 1 / (error * error);
+    const bool says_nothing = is_held || !std::isfinite(pixel.off[k]);
+    pixel.weight[k] = says_nothing ? 0 : 1 / (error * error);
+    if (says_nothing) pixel.off[k] = 0;
   }
-  for (const LightAdded& added : lights_added(pass_, pixel.surface)) pixel.lights.push_back(share(pixel, added));
+  for (const LightAdded& added : lights_added(pass_, pixel.surface)) {
+    if (!std::isfinite(added.term[0] + added.term[1] + added.term[2])) return;
+    pixel.lights.push_back(share(pixel, added));
+  }
   if (!pixel.lights.empty()) pixels_.push_back(std::move(pixel));
 }
 

@@ -10,13 +10,17 @@ namespace {
 constexpr double kNextToNothing = 0.2;  // of the difference
 constexpr double kClear = 12;           // squares of errors, of three channels
 
+/// The lights that add most to the sampled pixels.
 std::vector<uint32_t> lights_of(const LightShares& shares) {
-  std::vector<uint8_t> is_here(shares.scene().lights.size());
+  constexpr size_t kMost = 64;
+  std::vector<double> sum(shares.scene().lights.size());
   for (const SharedPixel& p : shares.pixels())
-    for (const Share& s : p.lights) is_here[s.light] = 1;
+    for (const Share& s : p.lights) sum[s.light] += LightShares::squared(p, s.term);
   std::vector<uint32_t> out;
-  for (uint32_t i = 0; i < is_here.size(); ++i)
-    if (is_here[i] != 0) out.push_back(i);
+  for (uint32_t i = 0; i < sum.size(); ++i)
+    if (sum[i] > 0) out.push_back(i);
+  std::stable_sort(out.begin(), out.end(), [&](uint32_t a, uint32_t b) { return sum[a] > sum[b]; });
+  out.resize(std::min(out.size(), kMost));
   return out;
 }
 
@@ -55,7 +59,7 @@ std::string missing_text(const std::vector<LightQuotient::Step>& curve) {
   std::stable_sort(most.begin(), most.end(), [](const auto& a, const auto& b) { return a.factor < b.factor; });
   std::string text;
   for (size_t i = 0; i < std::min<size_t>(3, most.size()); ++i) {
-    const std::string light = "light " + digits(most[i].from);
+    const std::string light = "light " + std::to_string(uint32_t(most[i].from));
     const std::string share = digits(100 * (1 - most[i].factor));
     text +=
         (i > 0 ? "; " : "") + light +

@@ -35,8 +35,10 @@ CapturedSurface::CapturedSurface(const Scene& scene, const Pipeline& pipeline, c
       normal_(required(capture, "normal")),
       albedo_(required(capture, "albedo")),
       object_(plane_of(capture, pipeline, "id.object")),
-      specular_(reads_specular_plane(pipeline.light_model) && !has_metals(capture) ? required(capture, "specular")
-                                                                                   : PlaneView{}),
+      specular_(reads_specular_plane(pipeline.light_model) &&
+                        !(pipeline.light_model.keeps_metals && has_metals(capture))
+                    ? required(capture, "specular")
+                    : PlaneView{}),
       emission_(emits(scene, pipeline.light_model) ? required(capture, "emission") : PlaneView{}),
       viewport_(resolved_viewport(pipeline.geometry, pipeline.width, pipeline.height)) {
   if (pipeline.gbuffer.position_from_depth) {
@@ -67,7 +69,8 @@ void CapturedSurface::find_fields(const Scene& scene, const Capture& capture) {
       std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.unlit; });
   uv_ = reads.uv ? required(capture, "uv") : PlaneView{};
   material_ = unlit ? required(capture, "id.material") : plane("id.material");
-  metallic_ = plane("metallic"), roughness_ = plane("roughness"), occlusion_ = plane("occlusion");
+  if (reads.metals) metallic_ = plane("metallic"), roughness_ = plane("roughness");
+  occlusion_ = plane("occlusion");
   uv1_ = plane("uv1"), tangent_ = plane("tangent");
   CapturedFields there{bool(uv1_), bool(tangent_), {}};
   for (size_t i = 0; i < user_.size(); ++i) {

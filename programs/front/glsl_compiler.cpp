@@ -4,8 +4,11 @@
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
 #include <glslang/build_info.h>
+#include <pthread.h>
 
 #include <cstdlib>
+#include <exception>
+#include <functional>
 #include <optional>
 #include <string_view>
 
@@ -96,11 +99,8 @@ void refuse_byte_order_mark(const std::string& file, std::string_view text) {
   throw Error(ErrorKind::bad_input, file, "is not GLSL that glslang compiles", "correct the GLSL");
 }
 
-}  // namespace
-
-std::vector<uint32_t> spirv_of_glsl(const std::string& file, const std::string& text, const std::string& tail,
-                                    bool keep_uncalled, const std::string& before) {
-  refuse_byte_order_mark(file, text);
+std::vector<uint32_t> compiled(const std::string& file, const std::string& text, const std::string& tail,
+                               bool keep_uncalled, const std::string& before) {
   static const GlslangProcess process;
   constexpr int kVersion = 460;
   auto messages = EShMessages(EShMsgSpvRules | EShMsgVulkanRules);
@@ -129,6 +129,44 @@ std::vector<uint32_t> spirv_of_glsl(const std::string& file, const std::string& 
   options.disableOptimizer = true;
   std::vector<uint32_t> words;
   glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), words, &options);
+  return words;
+}
+
+/// Runs a task on a thread whose stack holds what glslang's recursion needs for any text that is taken, some 1 kB an
+/// operator; on the caller's where the system gives no such thread.
+void on_deep_stack(const std::function<void()>& task) {
+  constexpr size_t kStack = size_t(768) << 20;  // of which the pages that are used count
+  struct Call {
+    const std::function<void()>& task;
+    std::exception_ptr thrown;
+  } call{task, nullptr};
+  const auto run = [](void* of) -> void* {
+    Call& mine = *static_cast<Call*>(of);
+    try {
+      mine.task();
+    } catch (...) {
+      mine.thrown = std::current_exception();
+    }
+    return nullptr;
+  };
+  pthread_attr_t attributes;
+  pthread_t thread;
+  pthread_attr_init(&attributes);
+  const bool started =
+      pthread_attr_setstacksize(&attributes, kStack) == 0 && pthread_create(&thread, &attributes, run, &call) == 0;
+  pthread_attr_destroy(&attributes);
+  if (!started) return task();
+  pthread_join(thread, nullptr);
+  if (call.thrown) std::rethrow_exception(call.thrown);
+}
+
+}  // namespace
+
+std::vector<uint32_t> spirv_of_glsl(const std::string& file, const std::string& text, const std::string& tail,
+                                    bool keep_uncalled, const std::string& before) {
+  refuse_byte_order_mark(file, text);
+  std::vector<uint32_t> words;
+  on_deep_stack([&] { words = compiled(file, text, tail, keep_uncalled, before); });
   return words;
 }
 

@@ -7,6 +7,7 @@
 #include "core/likeliest_name.h"
 #include "core/sha256.h"
 #include "scenes/light_models/texts.h"
+#include "scenes/pipeline/presets.h"
 
 namespace trueshade {
 namespace {
@@ -42,6 +43,9 @@ const ShippedModel& shipped_model(std::string_view name) {
     names.push_back(model.name);
     all += ' ' + std::string(model.name);
   }
+  if (preset_pipeline(name))
+    throw Error(ErrorKind::usage, "'" + std::string(name) + "'", "is a preset, and no light model that ships",
+                "--preset " + std::string(name));
   throw Error(ErrorKind::usage, "'" + std::string(name) + "'", "is no light model that ships",
               did_you_mean(name, names) + "one of:" + all + "; or a file, whose name has a dot or a slash");
 }

@@ -47,12 +47,27 @@ std::optional<ParameterRange> range_in(std::string_view comment) {
   return ParameterRange{*least, *most};
 }
 
+/// Whether a place of a text is in a comment.
+bool is_in_comment(std::string_view text, size_t place) {
+  for (size_t at = 0; (at = text.find('/', at)) < place;) {
+    const std::string_view opening = text.substr(at, 2);
+    if (opening != "//" && opening != "/*") {
+      ++at;
+      continue;
+    }
+    const size_t end = text.find(opening == "//" ? "\n" : "*/", at + 2);
+    if (end == std::string_view::npos || end > place) return true;
+    at = end + 1;
+  }
+  return false;
+}
+
 /// What stands behind the brace of the block of parameters; empty where there is no such block.
 std::string_view block_of(std::string_view text) {
   constexpr std::string_view kUniform = "uniform";
   for (size_t at = text.find(kUniform); at != std::string_view::npos; at = text.find(kUniform, at + 1)) {
     std::string_view rest = text.substr(at + kUniform.size());
-    if (take(rest, "Parameters") && take(rest, "{")) return rest;
+    if (take(rest, "Parameters") && take(rest, "{") && !is_in_comment(text, at)) return rest;
   }
   return {};
 }

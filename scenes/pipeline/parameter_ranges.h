@@ -9,7 +9,7 @@ namespace trueshade {
 /// Which values a parameter of a light program is made for, ends included.
 struct ParameterRange {
   double least, most;  ///< most may be infinite
-  bool holds(double value) const { return value >= least && value <= most; }
+  bool holds(float value) const { return value >= float(least) && value <= float(most); }
   std::string text() const;  ///< "0 to 1", "from 1"
 };
 

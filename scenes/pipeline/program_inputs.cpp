@@ -24,7 +24,7 @@ void check_ranges(const LightProgram& program) {
   for (const ProgramParameter& given : program.parameters)
     if (const ParameterRange* const range = range_of(declared, given.name))
       for (const float value : given.value)
-        if (!range->holds(double(value)))
+        if (!range->holds(value))
           throw Error(ErrorKind::usage, "--light-parameter",
                       "'" + given.name + "' is " + json::number_text(double(value)) + ", which " + program.file +
                           " is not made for",

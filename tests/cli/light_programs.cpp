@@ -163,6 +163,9 @@ TEST_CASE("list names the models that ship, and says of one what it reads, as it
   }
   const auto facts = [](const std::string& name) { return json::parse(run({"list", name, "--json"}).out); };
   const json gltf = facts("gltf"), toon = facts("toon");
+  CHECK(run({"list", "toon", "--text"}).out == std::string(shipped_model("toon").text));
+  CHECK(run({"list", "many-lights", "--text"}).out == facts("many-lights").at("text").get<std::string>());
+  CHECK(has(run({"render", "builtin:cornell", "--light-shader", "many-lights", "--hash"}).err, "--preset many-lights"));
   CHECK(gltf.at("sha256") == sha256_of(shipped_model("gltf").text));
   CHECK(gltf.at("parameters").empty());
   CHECK(gltf.at("defines") == json::array({"light", "start"}));

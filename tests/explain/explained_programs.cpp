@@ -219,8 +219,8 @@ TEST_CASE("a single operation that rounds once leaves at most half a unit, and a
     for (const ProgramTrace& trace : t.lights)
       for (const ProgramStep& step : trace.steps) {
         lines.insert(step.line);
-        choices += step.expression.find(" is true ? ") != std::string::npos ||
-                   step.expression.find(" is false ? ") != std::string::npos;
+        choices += step.expression.find(" (true) ? ") != std::string::npos ||
+                   step.expression.find(" (false) ? ") != std::string::npos;
         const bool once = step.expression.find(' ') != std::string::npos &&
                           step.expression.find('(') == std::string::npos &&
                           std::count(step.expression.begin(), step.expression.end(), ' ') == 2;

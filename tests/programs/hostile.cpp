@@ -111,4 +111,16 @@ TEST_CASE("A program of SPIR-V is that of the GLSL it was compiled from") {
   }
 }
 
+TEST_CASE("Very long expressions are compiled or refused, and overflow no stack") {
+  const auto light_of_terms = [](size_t terms, const char* sign) {
+    std::string text = "vec3 light(Surface s, Light l, View v) { return vec3(l.range";
+    for (size_t i = 1; i < terms; ++i) text += std::string(sign) + "l.range";
+    return text + "); }";
+  };
+  for (const char* const sign : {"+", "*"}) {
+    CHECK_NOTHROW(program_from_glsl("long.glsl", light_of_terms(20'000, sign)));
+    CHECK_THROWS_AS(program_from_glsl("long.glsl", light_of_terms(120'000, sign)), Error);
+  }
+}
+
 }  // namespace trueshade::programs

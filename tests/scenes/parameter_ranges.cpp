@@ -37,9 +37,9 @@ float outside;         // 0 to 1
   CHECK(shown("outside") == "none");
   CHECK(declared[6].name == "cold");
   const ParameterRange steps = *range_of(declared, "steps");
-  CHECK(steps.holds(1.0));
-  CHECK_FALSE(steps.holds(0.999));
-  CHECK_FALSE(steps.holds(std::numeric_limits<double>::quiet_NaN()));
+  CHECK(steps.holds(1.0f));
+  CHECK_FALSE(steps.holds(0.999f));
+  CHECK_FALSE(steps.holds(std::numeric_limits<float>::quiet_NaN()));
   const auto one_line = declared_parameters("uniform Parameters { float a, b; };  // 0 to 1\n");
   REQUIRE(one_line.size() == 2);
   CHECK(range_of(one_line, "a") != nullptr);
@@ -57,6 +57,16 @@ TEST_CASE("A value outside the range of a model that ships is refused, with the 
   toon.parameters = {{"steps", {0.5f}}};
   CHECK_THROWS_WITH(check_values(toon, inputs),
                     "--light-parameter: 'steps' is 0.5, which toon is not made for (from 1)");
+}
+
+TEST_CASE("The ends of a range are in it, as floats, and a block in a comment states none") {
+  const auto declared = declared_parameters(
+      "// uniform Parameters { float x; // 5 to 6\n/* uniform Parameters {\n float x; // 7 to 8\n} */\n"
+      "layout(std140) uniform Parameters {\n  float x;  // 0 to 0.1\n  float y;  // 0.7 to 1\n};\n");
+  REQUIRE(declared.size() == 2);
+  CHECK(range_of(declared, "x")->holds(0.1f));
+  CHECK(range_of(declared, "y")->holds(0.7f));
+  CHECK_FALSE(range_of(declared, "y")->holds(0.69999f));
 }
 
 }  // namespace

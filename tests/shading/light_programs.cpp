@@ -9,6 +9,7 @@
 #include "scenes/builtin/builtin.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
+#include "shading/given_surfaces.h"
 #include "shading/program/cut_lights.h"
 #include "tests/catch.hpp"
 #include "tests/shading/many_lights_text.h"
@@ -223,4 +224,26 @@ TEST_CASE("What a light program cannot be is said with its place") {
   CHECK(error_of(scene, by_program("float f;")).find("light") != std::string::npos);
   CHECK(error_of(scene, by_program("vec3 light(Surface s, Light l, View v) { return s.user[0].rgb; }"))
             .find("surface.user") != std::string::npos);
+}
+
+TEST_CASE("Planes of a capture that a light pass does not read change nothing, and are of the picture's size") {
+  const Scene scene = builtin_scene("cornell,lights=3");
+  Pipeline preset = *preset_pipeline("gl-fixed");
+  preset.width = 48, preset.height = 36, preset.strategy = Strategy::deferred_loop;
+  const Frame frame = render_frame(
+      scene, preset, {}, std::vector<std::string>{"depth", "position", "normal", "albedo", "specular", "id.object"});
+  GivenSurfaces given{&frame.aovs[0].image, &frame.aovs[5].image, &frame.aovs[1].image,
+                      &frame.aovs[2].image, &frame.aovs[3].image, &frame.aovs[4].image};
+  Pipeline program = preset;
+  program.light_program =
+      by_program("vec3 light(Surface s, Light l, View v) { return s.specular * l.color; }").light_program;
+  const Image other(48, 36, Format::rg32f), small(1, 1, Format::rg32f);
+  for (const Pipeline& pipeline : {preset, program}) {
+    GivenSurfaces more = given;
+    more.metallic = more.roughness = &other;
+    CHECK(image_hash(light_surfaces(scene, pipeline, {}, more).color) ==
+          image_hash(light_surfaces(scene, pipeline, {}, given).color));
+    more.metallic = &small;
+    CHECK_THROWS_AS(light_surfaces(scene, pipeline, {}, more), Error);
+  }
 }
