@@ -182,6 +182,7 @@ CommandTable bench_table(BenchOptions& options, BenchTexts& texts) {
   add_size(table, texts.size);
   add_layers(table, options);
   add_strategy(table, texts.strategy);
+  add_light_program(table, options);
   add_value(table, "--threads", "COUNT", texts.threads, "Threads, 0 for one a core").group = "Execution";
   add_simd(table, options.simd, "best, scalar, sse4, avx2 or avx512");
   add_limits(table, options.limits);
