@@ -247,7 +247,7 @@ void GlPeer::Work::draw_volumes() {
   const Matrix4 clip = projection_of(scene().camera, pipeline.geometry, pipeline.width, pipeline.height);
   std::array<float, 16> columns{};
   for (size_t i = 0; i < 16; ++i) columns[i] = float(clip[i]);
-  glUniformMatrix4fv(glGetUniformLocation(lighting, "clip_from_world"), 1, GL_FALSE, columns.data());
+  glUniformMatrix4fv(glGetUniformLocation(lighting, "clip_columns"), 1, GL_FALSE, columns.data());
   glBindVertexArray(volumes.array);
   for (const VolumeBatches::Run& run : volumes.runs) {
     set_volume_state(pipeline, run.mesh, 0, 0);

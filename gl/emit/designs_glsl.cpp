@@ -11,13 +11,13 @@ std::string volume_vertex_text(int version) {
   return glsl_header(version, "light volumes, many lights a draw: meshes in the world, or quads over the image") +
          R"(layout(location = 0) in vec3 corner;
 layout(location = 1) in int owner;
-uniform mat4 clip_from_world;
+uniform mat4 clip_columns;  // from the world
 uniform int mesh;  // 0: quads, corners in normalized device coordinates
 flat out int drawn_light;
 
 void main() {
   drawn_light = owner;
-  gl_Position = mesh == 0 ? vec4(corner.xy, 0.0, 1.0) : clip_from_world * vec4(corner, 1.0);
+  gl_Position = mesh == 0 ? vec4(corner.xy, 0.0, 1.0) : clip_columns * vec4(corner, 1.0);
 }
 )";
 }
