@@ -301,6 +301,8 @@ void GlPeer::Work::draw_over() {
 
 GlFrame GlPeer::Work::draw(bool read_back) {
   renderer.context().make_current();
+  light_texels();  // made before any is bound: making one binds it to whichever unit is active
+  if (pipeline.light_program.used()) renderer.buffers().material_texels(pipeline);
   GlFrame frame;
   frame.capture.driver = renderer.context().info().line();
   PassTimer timer(frame.passes);

@@ -99,6 +99,30 @@ TEST_CASE("Every OpenGL design draws maps of metal, emission and occlusion, and 
       if (preset.name == name) check_designs(scene, preset, std::span(kTiles).subspan(1));
 }
 
+TEST_CASE("Every OpenGL design draws by a light program, which knows each light's number and its parameters") {
+  Scene scene = builtin_scene("cornell,lights=9");
+  for (size_t i = 0; i < scene.materials.size(); ++i) scene.materials[i].unlit = i % 3 == 1;
+  Preset preset = presets().front();
+  Pipeline& p = preset.pipeline;
+  p.light_volumes.point = p.light_volumes.spot = LightExtent::range;
+  p.light_program = {"lights.glsl",
+                     R"glsl(
+layout(std140) uniform Parameters { vec3 tint; };
+vec3 light(Surface s, Light l, View v) {
+  vec3 d = l.position - s.position;
+  float share = max(dot(s.normal, normalize(d)), 0.0) * max(1.0 - length(d) / l.range, 0.0);
+  return s.albedo.rgb * l.color * tint * (l.index % 2u == 0u ? share : 0.25 * share);
+}
+vec3 start(Surface s, View v) { return 0.05 * s.albedo.rgb; }
+vec4 finish(Surface s, View v, vec3 sum) { return vec4(sum.brg, 1.0); }
+)glsl",
+                     {},
+                     {{"tint", {1.5f, 1.0f, 0.5f}}}};
+  check_designs(scene, preset);
+  scene.materials.back().transparent = true, scene.materials.back().base_color.a = 0.5f;
+  check_designs(scene, preset, std::span(kTiles).first(1));
+}
+
 TEST_CASE("Every OpenGL design knows ambient and directional lights, and eyes inside a light's range") {
   Scene scene = builtin_scene("city,objects=100,lights=8");
   Light ambient, sun, near;
