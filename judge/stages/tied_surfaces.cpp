@@ -104,7 +104,10 @@ class TieFinder {
 
   ShadedSurface surface_of(const PossibleSurface& c, double x, double y) const {
     const SurfaceValues values(projector_, c, x, y);
-    return shaded_surface(values, pipeline_.gbuffer);
+    ShadedSurface surface = shaded_surface(values, pipeline_.gbuffer);
+    surface.object = c.instance + 1, surface.pixel = {int(x), int(y)};
+    surface.material = projector_.scene().instances[c.instance].material + 1;
+    return surface;
   }
 
   const Pipeline pipeline_;
