@@ -31,7 +31,7 @@ Matrix4 clip_from_world(const Camera& camera, double aspect, ClipRange range = C
 
 /// Its two factors, of a camera that is not a matrix: view space has the eye at 0, looking along -z, y up.
 Matrix4 clip_from_view(const Camera& camera, double aspect, ClipRange range);
-Matrix4 view_from_world(const Camera& camera);
+Matrix4 view_from_world(const Camera& camera);  ///< the second of the two
 
 /// The view's z axis in the world, from the scene to the viewer, of unit length: minus the row of w, or where that has
 /// no direction (an orthographic matrix) minus the row of z. OpenGL's viewer at infinity, (0, 0, 1) in eye space.
