@@ -195,6 +195,7 @@ void set_property(Camera& camera, CameraProperty property, const glm::dvec4& val
 }
 
 uint32_t frame_at(const Scene& scene) {
+  const FpScope fp;
   return uint32_t(std::clamp(std::floor(scene.time * scene.timeline.fps + 0.5), 0.0, 4294967295.0));
 }
 

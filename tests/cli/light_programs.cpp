@@ -73,10 +73,6 @@ TEST_CASE("What is wrong with a light program is said with its place or its opti
   write("empty.glsl", "");
   CHECK(with({"--light-shader", "empty.glsl"}).exit_code == 3);
   CHECK(with({"--light-shader", "absent.glsl"}).exit_code == 5);
-  const Outcome blends =
-      with({"--light-shader", "needs.glsl", "--light-parameter", "gain=1", "--strategy", "deferred-volumes"});
-  CHECK(blends.exit_code == 2);
-  CHECK(has(blends.err, "deferred-loop"));
   write("version.glsl", "#version 450\nvec3 light(Surface s, Light l, View v) { return vec3(1); }\n");
   write("marked.glsl", "\xEF\xBB\xBFvec3 light(Surface s, Light l, View v) { return vec3(1); }\n");
   const auto drawn_by = [](const std::string& command, const std::string& file) {

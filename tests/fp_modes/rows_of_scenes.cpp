@@ -136,6 +136,7 @@ void call_set_time(Bytes& out) {
     for (const Light& light : hierarchy.lights) out.put_light(light);
     out.put(hierarchy.camera.clip_from_world.value());
   }
+  out.put(frame_at(scene));
   out.put_error([&] { set_time(scene, 1e7); });
   out.put_error([&] { set_time(scene, std::numeric_limits<double>::quiet_NaN()); });
 }
@@ -174,6 +175,8 @@ void call_camera(Bytes& out) {
   out.put(other);
   out.put(product(clip, other));
   out.put(view_axis(camera));
+  out.put(clip_from_view(camera, 1.7, ClipRange::zero_to_one));
+  out.put(view_from_world(camera));
   camera.clip_from_world.emplace();
   camera.clip_from_world->fill(0.1f);
   out.put(clip_from_world(camera, 1.7));
@@ -221,7 +224,7 @@ void call_mesh(Bytes& out) {
 
 constexpr Row kRows[] = {
     {"scenes/builtin/builtin.h", "builtin_scene builtin_scenes", call_builtin},
-    {"scenes/camera.h", "clip_from_world product view_axis", call_camera},
+    {"scenes/camera.h", "clip_from_world clip_from_view view_from_world product view_axis", call_camera},
     {"scenes/mesh.h", "vertex_count triangle_count has_uv has_color uv_set", call_mesh},
     {"scenes/placement.h", "world_from_object copied turned turn_about unit mirrors", call_placements},
     {"scenes/texture.h", "append_texel build_mip_chain texel_value bytes_per_texel used texture_bytes float_texels_of_16_bits",
@@ -232,7 +235,7 @@ constexpr Row kRows[] = {
     {"scenes/scene.h", "load_scene Image", call_load},
     {"scenes/scene.h", "scene_hash digests_of triangle_count masked textured", call_hash},
     {"scenes/scene.h", "validate validate_moving reach_of", call_validate},
-    {"scenes/scene.h", "set_time", call_set_time},
+    {"scenes/scene.h", "set_time frame_at", call_set_time},
     {"scenes/scene.h", "shininess_of_roughness maps_of", call_shininess},
 };
 

@@ -105,6 +105,7 @@ void call_light_program(Bytes& out) {
   p.light_program.file = "lights.glsl";
   p.light_program.parameters.push_back({"gain", {0.1f, 1e-40f}});
   out.put(int(p.light_program.used()));
+  out.put(int(is_spirv("vec3 light")));
   out.put(pipeline_json(p));
   out.put_error([&] { require_no_light_program(p, "a test"); });
 }
@@ -256,7 +257,7 @@ constexpr Row kRows[] = {
     {"core/simd/simd_target.h", "simd_targets built_simd_targets SimdScope", call_simd},
     {"scenes/pipeline/image_view.h", "view_from_name", call_names},
     {"scenes/pipeline/light_model.h", "reads_specular_plane takes_gloss shows_unlit maps_metals", call_light_model},
-    {"scenes/pipeline/light_program.h", "used", call_light_program},
+    {"scenes/pipeline/light_program.h", "used is_spirv", call_light_program},
     {"scenes/pipeline/presets.h", "presets preset_pipeline default_pipeline", call_light_model},
     {"scenes/pipeline/pipeline.h",
      "pipeline_from_json pipeline_json validate name_of blends_lights is_forward surface_planes "
