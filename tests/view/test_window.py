@@ -201,11 +201,11 @@ class Window(unittest.TestCase):
             write("saved.tmp", text)
             os.rename(path("saved.tmp"), path("live.glsl"))
 
-        lines = ["light-parameter gain=0.25", "panel model", "still", "hash", "screenshot good.png"]
-        lines += ["wait 4", "still", "hash", "screenshot broken.png", "wait 7", "still", "screenshot repaired.png", "hash", "save model.png",
+        lines = ["light-parameter gain=0.25", "panel model", "still", "hash", "screenshot model_good.png"]
+        lines += ["wait 4", "still", "hash", "screenshot model_broken.png", "wait 7", "still", "screenshot model_repaired.png", "hash", "save model.png",
                   "save model.json", "light-parameter gain=0.5", "still", "hash", "model toon", "still", "hash", "model none", "still",
                   "hash"]
-        told = threading.Thread(target=lambda: (until("good.png"), saved(MODEL % "gian"), until("broken.png"), saved(MODEL % "gain * gain")))
+        told = threading.Thread(target=lambda: (until("model_good.png"), saved(MODEL % "gian"), until("model_broken.png"), saved(MODEL % "gain * gain")))
         told.start()
         done = view("builtin:lecture", lines, "--size", "640x480", "--light-shader", "live.glsl")
         told.join()
@@ -220,7 +220,7 @@ class Window(unittest.TestCase):
         self.assertEqual(found[5:], hashes(run("render", "builtin:lecture", "--size", "640x480", "--hash").stdout))
         self.assertIn("live.glsl:5:10: 'gian' : undeclared identifier", done.stderr)
         self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
-        good, broken, repaired = (pixels_of_png(name + ".png")[2] for name in ("good", "broken", "repaired"))
+        good, broken, repaired = (pixels_of_png("model_" + name + ".png")[2] for name in ("good", "broken", "repaired"))
         told_at = [(x, y) for y in range(60, 110) for x in range(20, 280) if good[y][x] != broken[y][x]]
         self.assertGreater(len(told_at), 5000)
         reds = sum(r > 200 and g < 160 and b < 160 for row in broken[55:120] for r, g, b in row[:300])
