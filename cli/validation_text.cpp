@@ -283,7 +283,7 @@ namespace {
 
 bool is_explained(const Validation& v) { return !v.findings.empty() && !v.findings[0].partial; }
 
-/// What is said of light that no fault explains: the description, and eight steps of its curve.
+/// Where no fault explains the light: the quotient's description in words, and eight steps of its curve.
 std::string quotient_text(const oracle::LightQuotient& q) {
   std::string lines =
       verdict_row("its light", q.text + "; that leaves " + real(100 * q.left, "%.2g") + " % of the difference");

@@ -21,7 +21,7 @@ LightTable bounded_table(const Scene& scene, const Pipeline& pipeline, bool draw
   return table;
 }
 
-/// The pipeline's own program, or that of its model; a surface of glass has the albedo's alpha.
+/// The pipeline's light program; where it has none, its light model as one. On glass, alpha is the albedo's.
 LightProgram light_program_of(const Pipeline& pipeline, bool of_glass) {
   if (pipeline.light_program.used()) return pipeline.light_program;
   LightModel model = pipeline.light_model;

@@ -166,7 +166,8 @@ std::string loop_text(const Pipeline& p, const programs::LightOutline& has, cons
          "    vec3 added = ts_added(s, l, v);\n    if (added != vec3(0.0)) sum += added;\n  }\n";
 }
 
-/// Brings in the light of a draw of its own: the sum is what it gives. A pass with the first light adds it.
+/// Statements of a draw that has one light: its term becomes `sum`. In a pass over the scene the term of light 0 is
+/// added to what `sum` starts from.
 std::string one_light_text(const Pipeline& p, const programs::LightOutline& has, const ProgramDraw& draw) {
   const bool pass = draw.kind == ProgramDraw::Kind::pass;
   const std::string fresh = has.variables.empty() ? "" : "  ts_fresh();\n", beyond = beyond_text_of(p);

@@ -18,7 +18,7 @@ struct LightQuotient {
     double factor = 1;
   };
   std::vector<Step> curve;  ///< where light falls in the picture; ascending
-  double left = 1;          ///< what these factors leave of the difference, a share of its root mean square
+  double left = 1;          ///< root mean square of the difference under these factors, a share of that without
   std::string text;         ///< the plainest description of the curve, a sentence without its full stop
 };
 

@@ -22,7 +22,7 @@ struct SharedPixel {
   std::vector<Share> lights;
 };
 
-/// The sampled pixels of a picture, each with the shares of its lights. Borrows the scene and the capture.
+/// Sampled pixels of a picture, each with the term of every light that adds to it. Borrows the scene and the capture.
 class LightShares {
  public:
   LightShares(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,

@@ -1,5 +1,5 @@
 #pragma once
-// Lights that a picture goes without at some of its pixels, or at all.
+// Lights whose terms a picture lacks, at some of its pixels or at all of them.
 #include <optional>
 
 #include "judge/diagnosis/light_quotient.h"

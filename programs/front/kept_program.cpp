@@ -6,11 +6,10 @@
 #include "core/error.h"
 #include "core/sha256.h"
 #include "programs/front/light_program.h"
+#include "programs/front/spirv_words.h"
 
 namespace trueshade::programs {
 namespace {
-
-constexpr uint32_t kSpirvMagic = 0x07230203;
 
 Program compiled(const std::string& file, const std::string& text) {
   uint32_t first = 0;

@@ -41,7 +41,7 @@ inline uint32_t number_of(const LightTable& lights, const ListedLight& listed) {
   return lights.first_light + uint32_t(listed.light - lights.row.data());
 }
 
-/// Results of a pair at a vector of its pixels.
+/// What the program gives for one light at a vector of pixels.
 struct PairVector {
   VF light[3];
   MF adds;     ///< some channel is not 0, at a pixel that the light is brought to
