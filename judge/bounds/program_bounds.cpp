@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "programs/front/light_program.h"
+#include "scenes/light_models/stated_model.h"
 #include "scenes/pipeline/light_mesh.h"
 #include "scenes/pipeline/program_inputs.h"
 
@@ -32,6 +33,8 @@ Interval constant_of(const ProgramNode& node) {
   return (node.bits & 0xFFF) == 0 || !std::isfinite(x) ? Interval::of(x) : Interval::rounded_once(x);
 }
 
+}  // namespace
+
 /// The sum of what lights add, and the bound of docs/gl_rules.md section 6 on the roundings of its additions.
 struct ProgramTotal {
   LitRange lit;
@@ -47,8 +50,8 @@ struct ProgramTotal {
 
   /// nominal: the outcome of real arithmetic; nothing where a light that may reach the surface does not.
   void add(std::span<const std::array<Interval, 3>> outcomes, std::optional<size_t> nominal, bool perhaps_nothing) {
-    ++added;
     std::array<Bounded, 3> chosen{};
+    bool is_dark = true;  // adding a zero rounds nothing
     for (size_t k = 0; k < 3; ++k) {
       double largest = 0;
       for (const auto& one : outcomes) {
@@ -59,7 +62,9 @@ struct ProgramTotal {
       if (nominal) chosen[k].value = outcomes[*nominal][k].value;
       lit.color[k].value += chosen[k].value, lit.color[k].error += chosen[k].error;
       magnitude[k] += largest;
+      is_dark = is_dark && largest == 0;
     }
+    added += !is_dark;
     for (size_t i = 0; i < outcomes.size(); ++i) {
       OtherBranch other;
       for (size_t k = 0; k < 3; ++k) other.change[k] = outcomes[i][k].value - chosen[k].value;
@@ -97,8 +102,6 @@ struct ProgramTotal {
   }
 };
 
-}  // namespace
-
 Pipeline with_planes_that_program_reads(const Pipeline& pipeline) {
   const LightProgram& given = pipeline.light_program;
   if (!given.used()) return pipeline;
@@ -108,18 +111,29 @@ Pipeline with_planes_that_program_reads(const Pipeline& pipeline) {
   return with_planes_of(pipeline, program_reads(given.file, inputs));
 }
 
+/// The pipeline's own, or its light model's.
+static std::shared_ptr<const programs::Program> program_judged(const Pipeline& pipeline) {
+  const LightProgram& given = pipeline.light_program;
+  const LightProgram light = given.used() ? given : program_of(pipeline.light_model);
+  return programs::kept_program(light.file, light.text);
+}
+
 ProgramBounds::ProgramBounds(const Scene& scene, const Pipeline& pipeline, const Arithmetic& arithmetic)
-    : ProgramBounds(scene, pipeline, arithmetic,
-                    *programs::kept_program(pipeline.light_program.file, pipeline.light_program.text)) {}
+    : ProgramBounds(scene, pipeline, arithmetic, *program_judged(pipeline)) {}
 
 ProgramBounds::ProgramBounds(const Scene& scene, const Pipeline& pipeline, const Arithmetic& arithmetic,
                              programs::Program program)
+    : ProgramBounds(scene, pipeline, arithmetic, std::move(program), pipeline.light_program.used()) {}
+
+ProgramBounds::ProgramBounds(const Scene& scene, const Pipeline& pipeline, const Arithmetic& arithmetic,
+                             programs::Program program, bool is_users)
     : scene_(scene),
       arithmetic_(arithmetic),
       of_(arithmetic),
       program_(std::move(program)),
       volumes_(pipeline.light_volumes),
-      alpha_from_albedo_(pipeline.light_model.alpha_from_albedo) {
+      alpha_from_albedo_(pipeline.light_model.alpha_from_albedo),
+      is_users_(is_users) {
   make_steps();
   set_constants(scene, pipeline);
   set_lights();
@@ -275,6 +289,25 @@ void ProgramBounds::make_steps() {
     std::vector<Step>* const lists[] = {&constants_, &of_lights_, &of_surfaces_, &of_pairs_, &of_sums_};
     (node.rate == Rate::pair && needed[id] == 2 ? of_reaches_ : *lists[size_t(node.rate)]).push_back(step);
   }
+  find_slots_read();
+}
+
+/// What of surfaces and of lights is read by what comes after them.
+void ProgramBounds::find_slots_read() {
+  std::array<std::vector<uint8_t>, programs::kRateCount> is_read;
+  for (size_t rate = 0; rate < is_read.size(); ++rate) is_read[rate].resize(slots_[rate]);
+  const auto read = [&](const Place& p) {
+    if (p.slot < is_read[p.rate].size()) is_read[p.rate][p.slot] = 1;
+  };
+  for (const std::vector<Step>* steps : {&of_pairs_, &of_reaches_})
+    for (const Step& step : *steps) std::for_each(step.from.begin(), step.from.end(), read);
+  for (const ProgramTerm& term : terms_) read(term.from);
+  for (const ProgramMix& mix : mixes_) read(mix.x), read(mix.y), read(mix.a);
+  for (const NodeId id : program_.output) read(place_[id]);
+  for (uint32_t slot = 0; slot < slots_[size_t(Rate::surface)]; ++slot)
+    if (is_read[size_t(Rate::surface)][slot] != 0) surface_slots_read_.push_back(slot);
+  for (uint32_t slot = 0; slot < slots_[size_t(Rate::light)]; ++slot)
+    if (is_read[size_t(Rate::light)][slot] != 0) light_slots_read_.push_back(slot);
 }
 
 void ProgramBounds::set_constants(const Scene& scene, const Pipeline& pipeline) {
@@ -375,6 +408,11 @@ const Interval& ProgramBounds::output(int number, const Values& values) const {
   return values[place.rate][place.slot];
 }
 
+Interval ProgramBounds::result(const ProgramLanes& lanes, int number, size_t lane) const {
+  const Place& p = place_[program_.output[size_t(number)]];
+  return lanes.lanes[p.rate] != nullptr ? lanes.lanes[p.rate][p.slot].at(lane) : lanes.one[p.rate][p.slot];
+}
+
 ProgramBounds::Outcome ProgramBounds::outcome(Registers& r) const {
   const Values values = values_of(r);
   return {output(programs::kLightOutput, values), output(programs::kLightOutput + 1, values),
@@ -418,29 +456,13 @@ ProgramBounds::Reach ProgramBounds::reach_of(const Light& light, const ShadedSur
   return d.value < range ? Reach::perhaps : Reach::perhaps_not_nominally;
 }
 
-void ProgramBounds::take_near(const std::array<LightBounds::Span, 3>& box, std::vector<uint32_t>& near) const {
-  constexpr double kRoom = 1 + 0x1p-8;  // for all that rounding may move a distance
-  near.clear();
-  for (uint32_t i = 0; i < scene_.lights.size(); ++i) {
-    const Light& light = scene_.lights[i];
-    double square = 0, size = 0;
-    for (size_t k = 0; k < 3; ++k) {
-      const auto p = double(light.position[int(k)]);
-      const double off = std::max({box[k].low - p, p - box[k].high, 0.0});
-      square += off * off, size = std::max({size, std::fabs(box[k].low), std::fabs(box[k].high), std::fabs(p)});
-    }
-    const double reach = double(light.range) * kRoom + size * 0x1p-16;
-    if (drawn_extent(light, volumes_) == LightExtent::unbounded || !(square > reach * reach)) near.push_back(i);
-  }
-}
-
 bool ProgramBounds::reads(std::string_view field) const {
   return std::any_of(program_.inputs.begin(), program_.inputs.end(),
                      [field](const programs::ProgramInput& input) { return input.name.starts_with(field); });
 }
 
 bool ProgramBounds::is_unlit(const ShadedSurface& s) const {
-  return s.material > 0 && s.material <= scene_.materials.size() && scene_.materials[s.material - 1].unlit;
+  return is_users_ && s.material > 0 && s.material <= scene_.materials.size() && scene_.materials[s.material - 1].unlit;
 }
 
 void ProgramBounds::look_at(const ShadedSurface& surface, Registers& r) const {
@@ -451,24 +473,35 @@ void ProgramBounds::look_at(const ShadedSurface& surface, Registers& r) const {
   run(of_surfaces_, own, values_of(r), r.terms);
 }
 
+/// One light's part of a sum. The surface has been looked at.
+void ProgramBounds::add(const ShadedSurface& surface, uint32_t light, bool ends, Registers& r,
+                        ProgramTotal& total) const {
+  const Reach reach = ends ? reach_of(scene_.lights[light], surface) : Reach::surely;
+  if (reach == Reach::none) return;
+  r.light = light;
+  size_t nominal = 0;
+  Interval counted;
+  const std::vector<Outcome> all = outcomes(r, nominal, counted);
+  if (reach == Reach::surely && counted.is_true()) ++total.lit.lights_low;
+  if (!counted.is_false()) ++total.lit.lights_high;
+  const bool is_in = reach != Reach::perhaps_not_nominally;
+  total.add(all, is_in ? std::optional(nominal) : std::nullopt, reach == Reach::perhaps);
+}
+
 LitRange ProgramBounds::at(const ShadedSurface& surface, std::span<const uint32_t> lights, Registers& r) const {
   look_at(surface, r);
   ProgramTotal total;
   if (is_unlit(surface)) return total.lit;
   for (size_t k = 0; k < 3; ++k) total.start(k, output(programs::kStartOutput + int(k), values_of(r)));
-  for (const uint32_t i : lights) {
-    const Reach reach = reach_of(scene_.lights[i], surface);
-    if (reach == Reach::none) continue;
-    r.light = i;
-    size_t nominal = 0;
-    Interval counted;
-    const std::vector<Outcome> all = outcomes(r, nominal, counted);
-    if (reach == Reach::surely && counted.is_true()) ++total.lit.lights_low;
-    if (!counted.is_false()) ++total.lit.lights_high;
-    const bool is_in = reach != Reach::perhaps_not_nominally;
-    total.add(all, is_in ? std::optional(nominal) : std::nullopt, reach == Reach::perhaps);
-  }
+  for (const uint32_t light : lights) add(surface, light, true, r, total);
   return total.finished(arithmetic_.roundoff);
+}
+
+LitRange ProgramBounds::alone(const ShadedSurface& surface, uint32_t light, bool ends, Registers& r) const {
+  look_at(surface, r);
+  ProgramTotal total;
+  if (!is_unlit(surface)) add(surface, light, ends, r, total);
+  return total.lit;
 }
 
 ProgramLanes ProgramBounds::lanes_of(std::span<const Step> steps, Rate rate, Block& block, uint32_t light,
@@ -478,6 +511,129 @@ ProgramLanes ProgramBounds::lanes_of(std::span<const Step> steps, Rate rate, Blo
   if (!light_values_.empty()) lanes.one[size_t(Rate::light)] = light_values_[light].data();
   for (const Rate of : {Rate::surface, Rate::pair}) lanes.lanes[size_t(of)] = block.of[size_t(of)].data();
   return lanes;
+}
+
+/// Lights in the lanes, and one surface for all of them.
+ProgramLanes ProgramBounds::lanes_of_lights(std::span<const Step> steps, Block& block, size_t count,
+                                            uint8_t* left) const {
+  ProgramLanes lanes{steps, terms_, mixes_, {}, {}, block.of[size_t(Rate::pair)].data(), arithmetic_, left, count};
+  lanes.one[size_t(Rate::constant)] = constant_values_.data();
+  lanes.one[size_t(Rate::surface)] = block.registers.of[size_t(Rate::surface)].data();
+  for (const Rate of : {Rate::light, Rate::pair}) lanes.lanes[size_t(of)] = block.of[size_t(of)].data();
+  return lanes;
+}
+
+/// At most kIntervalLanes. Lanes behind the last light repeat the first one.
+void ProgramBounds::look_at(std::span<const uint32_t> lights, Block& block) const {
+  for (const Rate rate : {Rate::light, Rate::pair}) block.of[size_t(rate)].resize(slots_[size_t(rate)] + 1);
+  for (size_t i = 0; i < kIntervalLanes; ++i) {
+    const std::vector<Interval>& values = light_values_[lights[i < lights.size() ? i : 0]];
+    for (const uint32_t slot : light_slots_read_) block.of[size_t(Rate::light)][slot].set(i, values[slot]);
+  }
+}
+
+bool ProgramBounds::suits_lanes() const {
+  return slots_[size_t(Rate::surface)] + slots_[size_t(Rate::light)] + slots_[size_t(Rate::pair)] <= kMostLaneSlots;
+}
+
+/// Where some surfaces may be.
+struct ProgramBounds::Box {
+  std::array<double, 3> low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+
+  void add(const Bounded3& position) {
+    for (size_t k = 0; k < 3; ++k) {
+      const double least = position[k].low(), most = position[k].high();
+      const bool is_known = std::isfinite(least) && std::isfinite(most);
+      low[k] = is_known ? std::min(low[k], least) : -HUGE_VAL;
+      high[k] = is_known ? std::max(high[k], most) : HUGE_VAL;
+    }
+  }
+};
+
+/// Whether the pipeline gives the light an extent that has no surface of the box.
+bool ProgramBounds::ends_before(const Light& light, const Box& box) const {
+  if (drawn_extent(light, volumes_) == LightExtent::unbounded) return false;
+  constexpr double kRoom = 1 + 0x1p-8;  // for all that rounding may move a distance
+  double square = 0, size = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    const auto p = double(light.position[int(k)]);
+    const double off = std::max({box.low[k] - p, p - box.high[k], 0.0});
+    square += off * off, size = std::max({size, std::fabs(box.low[k]), std::fabs(box.high[k]), std::fabs(p)});
+  }
+  const double reach = double(light.range) * kRoom + size * 0x1p-16;
+  return square > reach * reach;
+}
+
+void ProgramBounds::take_near(std::span<const ShadedSurface* const> surfaces, Block& block,
+                              std::vector<uint32_t>& near) const {
+  near.clear();
+  if (surfaces.empty()) return;
+  if (!suits_lanes()) {
+    for (uint32_t i = 0; i < scene_.lights.size(); ++i) near.push_back(i);
+    return;
+  }
+  Box box;
+  for (const ShadedSurface* surface : surfaces) box.add(surface->position);
+  // All that the surfaces hold, and what is computed of each.
+  std::vector<Interval>& held = block.registers.of[size_t(Rate::surface)];
+  held.assign(slots_[size_t(Rate::surface)], {0, HUGE_VAL, -HUGE_VAL, false});
+  for (size_t first = 0; first < surfaces.size(); first += kIntervalLanes) {
+    const auto some = surfaces.subspan(first, std::min(kIntervalLanes, surfaces.size() - first));
+    look_at(some, block);
+    for (const uint32_t slot : surface_slots_read_)
+      held[slot] = hull(held[slot], block.of[size_t(Rate::surface)][slot].hull(some.size()));
+  }
+  std::array<uint32_t, kIntervalLanes> lights;
+  for (uint32_t first = 0; first < scene_.lights.size(); first += kIntervalLanes) {
+    const size_t count = std::min(kIntervalLanes, scene_.lights.size() - first);
+    for (size_t i = 0; i < count; ++i) lights[i] = first + uint32_t(i);
+    look_at(std::span<const uint32_t>(lights.data(), count), block);
+    run_program_lanes(lanes_of_lights(of_pairs_, block, count, nullptr));
+    run_program_lanes(lanes_of_lights(of_reaches_, block, count, nullptr));
+    const ProgramLanes lanes = lanes_of_lights({}, block, count, nullptr);
+    for (size_t i = 0; i < count; ++i) {
+      bool is_dark = result(lanes, programs::kReachesOutput, i).is_false();
+      for (int k = 0; k < 3 && is_dark; ++k) {
+        const Interval x = result(lanes, programs::kLightOutput + k, i);
+        is_dark = x.low == 0 && x.high == 0 && !x.maybe_nan;
+      }
+      if (!is_dark && !ends_before(scene_.lights[lights[i]], box)) near.push_back(lights[i]);
+    }
+  }
+}
+
+void ProgramBounds::apart(const ShadedSurface& surface, std::span<const uint32_t> lights, bool ends, Block& block,
+                          LitApart& lit) const {
+  constexpr size_t kFew = 4;  // lights that are as fast one by one
+  lit.color.resize(lights.size()), lit.one_outcome.resize(lights.size());
+  const auto by_itself = [&](size_t i) {
+    const LitRange one = alone(surface, lights[i], ends, block.registers);
+    lit.color[i] = one.color, lit.one_outcome[i] = one.branches.empty() && !one.undefined;
+  };
+  if (!suits_lanes() || is_unlit(surface) || lights.size() <= kFew) {
+    for (size_t i = 0; i < lights.size(); ++i) by_itself(i);
+    return;
+  }
+  look_at(surface, block.registers);
+  for (size_t first = 0; first < lights.size(); first += kIntervalLanes) {
+    const auto some = lights.subspan(first, std::min(kIntervalLanes, lights.size() - first));
+    look_at(some, block);
+    block.left.fill(0);
+    run_program_lanes(lanes_of_lights(of_pairs_, block, some.size(), block.left.data()));
+    const ProgramLanes lanes = lanes_of_lights({}, block, some.size(), nullptr);
+    for (size_t i = 0; i < some.size(); ++i) {
+      const Reach reach = ends ? reach_of(scene_.lights[some[i]], surface) : Reach::surely;
+      bool is_known = block.left[i] == 0 && (reach == Reach::surely || reach == Reach::none);
+      for (int k = 0; k < 3 && is_known; ++k) {
+        Bounded& c = lit.color[first + i][size_t(k)];
+        c = reach == Reach::none ? Bounded{} : bounded_of(result(lanes, programs::kLightOutput + k, i));
+        is_known = std::isfinite(c.error);
+      }
+      lit.one_outcome[first + i] = is_known;
+    }
+  }
+  for (size_t i = 0; i < lights.size(); ++i)
+    if (lit.one_outcome[i] == 0) by_itself(i);
 }
 
 /// Lanes behind the last surface repeat the first one.
@@ -506,32 +662,31 @@ bool ProgramBounds::find_reached(const Light& light, std::span<const ShadedSurfa
 void ProgramBounds::add(uint32_t light, size_t count, Block& block, std::span<BlockSum> sums) const {
   std::array<uint8_t, kIntervalLanes> open{};
   run_program_lanes(lanes_of(of_pairs_, Rate::pair, block, light, open.data()));
-  run_program_lanes(lanes_of(of_reaches_, Rate::pair, block, light, nullptr));
+  if (block.counts) run_program_lanes(lanes_of(of_reaches_, Rate::pair, block, light, nullptr));
   const ProgramLanes lanes = lanes_of({}, Rate::pair, block, light, nullptr);
-  const auto result = [&](int output, size_t lane) {
-    const Place& p = place_[program_.output[size_t(output)]];
-    return lanes.lanes[p.rate] != nullptr ? lanes.lanes[p.rate][p.slot].at(lane) : lanes.one[p.rate][p.slot];
-  };
   for (size_t i = 0; i < count; ++i) {
     if (!block.reached[i] || block.left[i] != 0) continue;
     BlockSum& sum = sums[i];
+    bool is_dark = true;
     for (int k = 0; k < 3; ++k) {
-      const Interval x = result(programs::kLightOutput + k, i);
+      const Interval x = result(lanes, programs::kLightOutput + k, i);
       const Bounded b = bounded_of(x);
       if (!std::isfinite(b.error)) open[i] = 1;
       sum.color[size_t(k)].value += b.value, sum.color[size_t(k)].error += b.error;
       sum.magnitude[size_t(k)] += x.size();
+      is_dark = is_dark && x.size() == 0;
     }
     block.left[i] |= open[i];
-    ++sum.added;
-    const Interval counted = result(programs::kReachesOutput, i);
+    sum.added += !is_dark;
+    if (!block.counts) continue;
+    const Interval counted = result(lanes, programs::kReachesOutput, i);
     sum.lights_low += counted.is_true(), sum.lights_high += !counted.is_false();
   }
 }
 
 void ProgramBounds::at(std::span<const ShadedSurface* const> surfaces, std::span<const uint32_t> lights, Block& block,
                        std::span<LitRange> lit) const {
-  if (slots_[size_t(Rate::surface)] + slots_[size_t(Rate::pair)] > kMostLaneSlots) {
+  if (!suits_lanes()) {
     for (size_t i = 0; i < surfaces.size(); ++i) lit[i] = at(*surfaces[i], lights, block.registers);
     return;
   }
@@ -547,11 +702,7 @@ void ProgramBounds::at(std::span<const ShadedSurface* const> surfaces, std::span
       continue;
     }
     ProgramTotal total;
-    for (int k = 0; k < 3; ++k) {
-      const Place& p = place_[program_.output[size_t(programs::kStartOutput + k)]];
-      total.start(size_t(k),
-                  lanes.lanes[p.rate] != nullptr ? lanes.lanes[p.rate][p.slot].at(i) : lanes.one[p.rate][p.slot]);
-    }
+    for (int k = 0; k < 3; ++k) total.start(size_t(k), result(lanes, programs::kStartOutput + k, i));
     total.add(sums[i]);
     lit[i] = total.finished(arithmetic_.roundoff);
   }

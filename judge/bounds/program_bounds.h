@@ -13,10 +13,21 @@
 
 namespace trueshade::oracle {
 
+struct ProgramTotal;
+
 /// The pipeline as the judge takes it; of a pipeline without a light program the same. Error as of ProgramBounds.
 Pipeline with_planes_that_program_reads(const Pipeline& pipeline);
 
-/// A light program over the lights of a scene, ready for any surface. Borrows the scene, which must outlive it.
+/// What lights add alone, by the order they were asked for in. Kept by the caller from pixel to pixel.
+struct LitApart {
+  std::vector<std::array<Bounded, 3>> color;
+  /// 1 where `color` is the only outcome; 0 where a comparison may go either way or the value is undefined, which
+  /// ProgramBounds::alone() tells.
+  std::vector<uint8_t> one_outcome;
+};
+
+/// A light program over the lights of a scene, ready for any surface. Borrows the scene, which must outlive it. Where
+/// the pipeline has none, its light model is one (scenes/light_models).
 ///
 /// A driver may add terms and multiply factors in any order, unless the source says `precise`. Where a comparison may
 /// go either way, each way is followed: up to kMostForks comparisons of one light, beyond that what holds both results
@@ -40,19 +51,31 @@ class ProgramBounds {
   ProgramBounds(const Scene& scene, const Pipeline& pipeline, const Arithmetic& arithmetic, programs::Program program);
 
   const programs::Program& program() const { return program_; }
-
-  /// Lights that may reach a surface whose position is in the box.
-  void take_near(const std::array<LightBounds::Span, 3>& box, std::vector<uint32_t>& near) const;
+  /// Whether the pipeline has a light program, and not a light model.
+  bool is_users() const { return is_users_; }
 
   /// The sum of these lights, before finish().
   LitRange at(const ShadedSurface& surface, std::span<const uint32_t> lights, Registers& registers) const;
 
-  /// What is known of surfaces that are judged together. One thread's.
+  /// One light without what a sum starts from. ends: at its extent, where it has one.
+  LitRange alone(const ShadedSurface& surface, uint32_t light, bool ends, Registers& registers) const;
+
+  /// What is known of surfaces or lights that are judged together. One thread's.
   struct Block {
     std::array<std::vector<LaneInterval>, programs::kRateCount> of;
     std::array<uint8_t, kIntervalLanes> left{}, reached{};
+    bool counts = true;  ///< whether lights_low and lights_high are asked for
     Registers registers;
   };
+
+  /// Lights that may add something to any of these surfaces, or count: those whose terms are not proved to be 0 by the
+  /// program's own intervals over all that the surfaces hold.
+  void take_near(std::span<const ShadedSurface* const> surfaces, Block& block, std::vector<uint32_t>& near) const;
+
+  /// Each of these lights alone, a light a lane. The same values; bounds are no smaller where nothing may be NaN.
+  void apart(const ShadedSurface& surface, std::span<const uint32_t> lights, bool ends, Block& block,
+             LitApart& lit) const;
+
   /// What lights add to a surface, before what a sum starts from.
   struct BlockSum {
     Bounded3 color;
@@ -84,7 +107,10 @@ class ProgramBounds {
   using Values = std::array<const Interval*, programs::kRateCount>;
   using Outcome = std::array<Interval, 3>;
 
+  ProgramBounds(const Scene& scene, const Pipeline& pipeline, const Arithmetic& arithmetic, programs::Program program,
+                bool is_users);
   void make_steps();
+  void find_slots_read();
   using SumTerm = std::pair<programs::NodeId, bool>;  ///< true: negated
   std::vector<SumTerm> terms_of(programs::NodeId id) const;
   void gather(programs::NodeId id, bool negated, std::vector<SumTerm>& out, size_t depth, size_t& visits) const;
@@ -103,19 +129,26 @@ class ProgramBounds {
   void look_at(const ShadedSurface& surface, Registers& registers) const;
   ProgramLanes lanes_of(std::span<const Step> steps, programs::Rate rate, Block& block, uint32_t light,
                         uint8_t* left) const;
+  ProgramLanes lanes_of_lights(std::span<const Step> steps, Block& block, size_t count, uint8_t* left) const;
+  void look_at(std::span<const uint32_t> lights, Block& block) const;
+  bool suits_lanes() const;
+  struct Box;
+  bool ends_before(const Light& light, const Box& box) const;
+  void add(const ShadedSurface& surface, uint32_t light, bool ends, Registers& registers, ProgramTotal& total) const;
   void look_at(std::span<const ShadedSurface* const> surfaces, Block& block) const;
   bool find_reached(const Light& light, std::span<const ShadedSurface* const> surfaces, Block& block) const;
   void add(uint32_t light, size_t count, Block& block, std::span<BlockSum> sums) const;
 
   Reach reach_of(const Light& light, const ShadedSurface& surface) const;
   const Interval& output(int number, const Values& values) const;
+  Interval result(const ProgramLanes& lanes, int number, size_t lane) const;
 
   const Scene& scene_;
   Arithmetic arithmetic_;
   IntervalArithmetic of_;
   programs::Program program_;
   LightVolumes volumes_;
-  bool alpha_from_albedo_;
+  bool alpha_from_albedo_, is_users_;
   std::vector<Place> place_;  ///< of each node
   std::array<uint32_t, programs::kRateCount> slots_{};
   std::vector<Step> constants_, of_lights_, of_surfaces_, of_pairs_, of_reaches_, of_sums_;
@@ -123,6 +156,7 @@ class ProgramBounds {
   std::vector<std::pair<uint32_t, size_t>> sum_inputs_;            ///< slot, and channel
   std::vector<ProgramTerm> terms_;
   std::vector<ProgramMix> mixes_;
+  std::vector<uint32_t> surface_slots_read_, light_slots_read_;  ///< by what pairs compute, and outputs
   std::vector<Interval> constant_values_;
   std::vector<std::vector<Interval>> light_values_;
 };

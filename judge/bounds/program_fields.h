@@ -4,6 +4,8 @@
 
 #include "judge/bounds/interval.h"
 #include "judge/bounds/shading.h"
+#include "scenes/pipeline/pipeline.h"
+#include "scenes/scene.h"
 
 namespace trueshade::oracle {
 

@@ -14,6 +14,12 @@ void LaneInterval::set(size_t lane, const Interval& x) {
   low[lane] = x.maybe_nan ? -HUGE_VAL : x.low, high[lane] = x.maybe_nan ? HUGE_VAL : x.high;
 }
 
+Interval LaneInterval::hull(size_t count) const {
+  Interval out = at(0);
+  for (size_t i = 1; i < count; ++i) out = oracle::hull(out, at(i));
+  return out;
+}
+
 void run_program_lanes(const ProgramLanes& in) { kernel<run_program_lanes>()(in); }
 
 }  // namespace trueshade::oracle

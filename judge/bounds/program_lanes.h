@@ -1,6 +1,6 @@
 #pragma once
-// The steps of a light program over the intervals of many surfaces at a time, a surface a lane: for speed alone. What
-// they leave, program_bounds.h takes one by one.
+// The steps of a light program over the intervals of many surfaces at a time, a surface a lane, or of many lights at one
+// surface: for speed alone. What they leave, program_bounds.h takes one by one.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -48,6 +48,7 @@ struct LaneInterval {
 
   Interval at(size_t lane) const;
   void set(size_t lane, const Interval& x);
+  Interval hull(size_t count) const;  ///< of the first lanes, one or more
 };
 
 /// Of each rate the values are one for all lanes, or lanes; `out` is where the steps' own results go.
@@ -60,6 +61,7 @@ struct ProgramLanes {
   LaneInterval* out = nullptr;
   Arithmetic arithmetic;
   uint8_t* left = nullptr;  ///< set to 1 of lanes with a comparison that may go either way; null: nobody asks
+  size_t count = kIntervalLanes;  ///< lanes that are asked for: the first
 };
 
 /// Results hold those of ProgramBounds one by one, but where lanes are left; they are wider by no more than what NaN

@@ -41,7 +41,7 @@ class Lanes {
 
   void run() {
     for (const ProgramStep& step : in_.steps)
-      for (size_t i = 0; i < kIntervalLanes; i += hn::Lanes(D())) run(step, i);
+      for (size_t i = 0; i < in_.count; i += hn::Lanes(D())) run(step, i);
   }
 
  private:
@@ -83,6 +83,8 @@ class Lanes {
   Three in_floats(Three x) const {
     const V zero = hn::Zero(D()), least = number(kSmallestFloat);
     const V most = number(double(std::numeric_limits<float>::max()));
+    const V nearer = hn::Min(hn::Abs(x.low), hn::Abs(x.high)), farther = size_of(x);
+    if (hn::AllTrue(D(), hn::And(hn::Ge(nearer, least), hn::Le(farther, most)))) return x;  // as nearly all are
     const M wrong = hn::Or(hn::IsNaN(x.low), hn::IsNaN(x.high));
     const auto small = [&](V v) { return hn::Lt(hn::Abs(v), least); };
     x.low = hn::IfThenElse(small(x.low), hn::IfThenElse(hn::Lt(x.low, zero), hn::Neg(least), zero), x.low);
@@ -159,6 +161,14 @@ class Lanes {
     return chosen(wrong, anything(out.value), out);
   }
 
+  Three exact_product(const Three& x, const Three& y) const {
+    const V zero = hn::Zero(D()), high = hn::Mul(x.high, y.high);
+    const M positive = hn::And(hn::Ge(x.low, zero), hn::Ge(y.low, zero));
+    if (hn::AllTrue(D(), hn::And(positive, hn::Lt(high, number(HUGE_VAL)))))  // for speed: the corners are known
+      return {hn::Mul(x.value, y.value), hn::Mul(x.low, y.low), high};
+    return of_corners(x, y, [](V a, V b) { return hn::Mul(a, b); });
+  }
+
   Three product(const ProgramStep& step, const Three& x, const Three& y) const {
     if (step.squares) {
       const M across = hn::And(hn::Le(x.low, hn::Zero(D())), hn::Ge(x.high, hn::Zero(D())));
@@ -166,7 +176,7 @@ class Lanes {
       const Three out = maybe_fused({hn::Mul(x.value, x.value), hn::Mul(least, least), hn::Mul(most, most)});
       return chosen(is_anything(x), x, out);
     }
-    const Three out = maybe_fused(of_corners(x, y, [](V a, V b) { return hn::Mul(a, b); }));
+    const Three out = maybe_fused(exact_product(x, y));
     if (!step.chained) return out;
     return chosen(is_anything(out), out, within(out, in_.arithmetic.roundoff));
   }
@@ -249,32 +259,41 @@ class Lanes {
     return chosen(surely, x, chosen(never, y, both));
   }
 
-  /// x^s of a whole s from 1 to 64 by squaring, s 2^-52 of itself off; |log2 x| from above by the exponent's bits, or
-  /// next to 1 by |x - 1| / min(x, 1).
-  static V powered(V x, int s) {
+  /// x^s of whole s from 1 on by squaring, s 2^-52 of itself off.
+  static V powered(V x, V s) {
+    const DI d;
+    VI left = hn::ConvertTo(d, s);
     V result = number(1);
     for (;; x = hn::Mul(x, x)) {
-      if ((s & 1) != 0) result = hn::Mul(result, x);
-      if ((s >>= 1) == 0) return result;
+      const M is_odd = hn::RebindMask(D(), hn::TestBit(left, hn::Set(d, int64_t(1))));
+      result = hn::IfThenElse(is_odd, hn::Mul(result, x), result);
+      left = hn::ShiftRight<1>(left);
+      if (hn::AllTrue(d, hn::Eq(left, hn::Zero(d)))) return result;
     }
   }
-  V power_error(V x, int s) const {
-    if (in_.arithmetic.exact_pow) return number(0x1p-24 + 0x1p-45 * s);
+  /// The error of pow, of itself. |log2 x| is taken from above, by the exponent and the chord of log2 over a mantissa, or
+  /// next to 1 by |x - 1| / min(x, 1).
+  V power_error(V x, V s) const {
+    if (in_.arithmetic.exact_pow) return hn::MulAdd(number(0x1p-45), s, number(0x1p-24));
     constexpr double kUlp = 0x1p-23, kLn2 = 0.69314718055994531;
+    constexpr double kAboveChord = 0.0861;  // log2 of a mantissa from 1 to 2 is above m - 1 by at most this
     const DI d;
-    const V exponent = hn::ConvertTo(D(), hn::Sub(hn::ShiftRight<52>(hn::BitCast(d, x)), hn::Set(d, int64_t(1023))));
-    const V by_bits = hn::Max(hn::Abs(exponent), hn::Abs(hn::Add(exponent, number(1))));
+    const VI bits = hn::BitCast(d, x), fraction = hn::And(bits, hn::Set(d, (int64_t(1) << 52) - 1));
+    const V exponent = hn::ConvertTo(D(), hn::Sub(hn::ShiftRight<52>(bits), hn::Set(d, int64_t(1023))));
+    const V mantissa = hn::BitCast(D(), hn::Or(fraction, hn::Set(d, int64_t(1023) << 52)));
+    const V chord = hn::Add(exponent, hn::Sub(mantissa, number(1)));
+    const V by_bits = hn::Max(hn::Abs(chord), hn::Abs(hn::Add(chord, number(kAboveChord))));
     const M near_one = hn::And(hn::Ge(x, number(0.5)), hn::Le(x, number(2)));
     const V close = hn::Div(hn::Abs(hn::Sub(x, number(1))), hn::Min(x, number(1)));
-    const V log2_x = hn::IfThenElse(near_one, hn::Mul(close, number(1 / kLn2)), by_bits);
-    const V y = hn::Mul(log2_x, number(s));
-    const V log2_error = hn::IfThenElse(near_one, number(0x1p-21 * s), hn::Mul(y, number(3 * kUlp)));
+    const V log2_x = hn::IfThenElse(near_one, hn::Min(hn::Mul(close, number(1 / kLn2)), by_bits), by_bits);
+    const V y = hn::Mul(log2_x, s);
+    const V log2_error = hn::IfThenElse(near_one, hn::Mul(number(0x1p-21), s), hn::Mul(y, number(3 * kUlp)));
     const V q = hn::Mul(hn::Add(log2_error, hn::Mul(y, number(in_.arithmetic.roundoff))), number(kLn2));
     const V own = hn::Mul(hn::Add(hn::Add(y, y), number(3)), number(kUlp));
-    const V error = hn::Add(hn::Add(hn::Mul(q, hn::Add(q, number(1))), own), number(0x1p-45 * s));
+    const V error = hn::Add(hn::Add(hn::Mul(q, hn::Add(q, number(1))), own), hn::Mul(number(0x1p-45), s));
     return hn::IfThenElse(hn::Le(q, number(1)), error, number(HUGE_VAL));
   }
-  Three power(const Three& x, int s) const {
+  Three power(const Three& x, V s) const {
     const V zero = hn::Zero(D()), one = number(1);
     const V low = hn::Max(x.low, zero), high = hn::Max(x.high, zero);
     const auto of = [&](V v, bool above) {
@@ -283,15 +302,14 @@ class Lanes {
       return hn::IfThenZeroElse(none, hn::Mul(powered(v, s), factor));
     };
     const Three out{powered(hn::Max(x.value, zero), s), of(low, false), of(high, true)};
-    const M beyond = hn::Gt(out.high, number(double(std::numeric_limits<float>::max())));
+    const M beyond = hn::Not(hn::Le(out.high, number(double(std::numeric_limits<float>::max()))));
     return chosen(hn::Or(hn::Lt(x.low, zero), beyond), anything(out.value), in_floats(out));
   }
 
-  /// Whether the exponent is one whole number for all lanes.
-  int whole_exponent(const ProgramPlace& p) const {
-    if (in_.lanes[p.rate] != nullptr) return 0;
-    const Interval& y = in_.one[p.rate][p.slot];
-    return y.known() && y.value >= 1 && y.value <= 64 && y.value == double(int(y.value)) ? int(y.value) : 0;
+  /// Whether all lanes have whole exponents, as a shininess is.
+  static bool are_whole(const Three& y) {
+    const M is_known = hn::And(hn::Eq(y.low, y.high), hn::Eq(hn::Round(y.low), y.low));
+    return hn::AllTrue(D(), hn::And(is_known, hn::And(hn::Ge(y.low, number(1)), hn::Le(y.low, number(8192)))));
   }
 
   /// A lane at a time.
@@ -369,7 +387,7 @@ class Lanes {
         return store(step, i, {hn::Max(x.value, y.value), hn::Max(x.low, y.low), hn::Max(x.high, y.high)});
       }
       case Op::pow:
-        if (const int s = whole_exponent(step.from[1]); s > 0) return store(step, i, power(x, s));
+        if (const Three y = load(step.from[1], i); are_whole(y)) return store(step, i, power(x, y.low));
         return run_one_by_one(step, i);
       default:
         return run_one_by_one(step, i);

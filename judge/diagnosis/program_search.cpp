@@ -26,10 +26,9 @@ struct Sample {
   std::array<double, 3> stored{};
 };
 
-/// Pixels that are judged together, and the lights that may reach them.
+/// Pixels that are judged together.
 struct Square {
   std::vector<Sample> samples;
-  std::vector<uint32_t> lights;
 };
 
 /// What a program makes of the samples, beside what is stored.
@@ -116,20 +115,19 @@ class ProgramSearch {
 
   void add_square(int left, int top) {
     Square& square = squares_.emplace_back();
-    std::array<LightBounds::Span, 3> box;
-    box.fill({HUGE_VAL, -HUGE_VAL});
     for (int y = top; y < std::min(top + kSide, pipeline_.height); ++y)
       for (int x = left; x < std::min(left + kSide, pipeline_.width); ++x) {
         if (!surfaces_.covered(x, y)) continue;
         Sample& s = square.samples.emplace_back();
         s.x = x, s.y = y, s.wrong = is_wrong(x, y), s.surface = surfaces_.at(x, y);
         for (int k = 0; k < 3; ++k) s.stored[size_t(k)] = color_.stored(x, y, k);
-        for (size_t k = 0; k < 3; ++k) {
-          box[k].low = std::min(box[k].low, s.surface.position[k].low());
-          box[k].high = std::max(box[k].high, s.surface.position[k].high());
-        }
       }
-    right_.take_near(box, square.lights);
+  }
+
+  static std::vector<const ShadedSurface*> surfaces_of(const Square& square) {
+    std::vector<const ShadedSurface*> out;
+    for (const Sample& s : square.samples) out.push_back(&s.surface);
+    return out;
   }
 
   /// What is stored of a sample by a program; whether it is known so well that it could be another.
@@ -138,10 +136,11 @@ class ProgramSearch {
     bool known = true;
   };
   std::vector<Made> made_of(const ProgramBounds& bounds, const Square& square) {
-    std::vector<const ShadedSurface*> surfaces;
-    for (const Sample& s : square.samples) surfaces.push_back(&s.surface);
+    const std::vector<const ShadedSurface*> surfaces = surfaces_of(square);
     std::vector<LitRange> lit(surfaces.size());
-    bounds.at(surfaces, square.lights, block_, lit);
+    std::vector<uint32_t> near;
+    bounds.take_near(surfaces, block_, near);
+    bounds.at(surfaces, near, block_, lit);
     std::vector<Made> out(lit.size());
     for (size_t i = 0; i < lit.size(); ++i) {
       for (const OtherBranch& b : lit[i].branches)

@@ -1,6 +1,5 @@
 #pragma once
 // What the fragment shader of one light's draw may output at a surface.
-#include <optional>
 #include <span>
 
 #include "judge/bounds/program_bounds.h"
@@ -15,25 +14,17 @@ struct LightOutput {
   bool undefined = false;               ///< OpenGL gives the value no meaning
 };
 
-/// A colour of the lights as the fragment outputs it: clamped where the model says so.
-Range output_range(const LightModel& model, const Bounded& value);
-
 /// Whether a colour's ranges are known: GLSL promises nothing of what is no number.
 bool are_numbers(const std::array<Range, 4>& color);
 
-/// The outputs of strategies that draw light by light. A Scene without meshes, of the camera and some lights, stands
-/// for the scene. Of a light program each draw's output is what finish() makes of its own sum.
+/// The outputs of strategies that draw light by light: each draw's is what finish() makes of its own sum. Lights go by
+/// their numbers in the scene, which is borrowed.
 class LightOutputs {
  public:
   LightOutputs(const Scene& scene, const Pipeline& pipeline, const Profile& profile);
 
-  /// The lights whose outputs are asked for next, by their place among them. first: the scene's number of the first.
-  /// Not while others ask.
-  void set_lights(std::span<const Light> lights, uint32_t first);
-
   LightOutput term(const ShadedSurface& surface, uint32_t light) const;  ///< the light's own, alone
-  /// With what the sum starts from; only one light may be set.
-  LightOutput first(const ShadedSurface& surface) const;
+  LightOutput first(const ShadedSurface& surface) const;  ///< of the first light, with what the sum starts from
   LightOutput start(const ShadedSurface& surface) const;  ///< what a surface has without lights
 
   /// How many fragments of a quad that ends at the light's range the surface has: 1, 0, or either.
@@ -50,31 +41,26 @@ class LightOutputs {
   Lit lit(const ShadedSurface& surface, uint32_t light) const;
 
   /// Many lights' terms in one go, ascending.
-  void terms(const ShadedSurface& surface, std::span<const uint32_t> lights, LitApart& lit) const;
+  void terms(const ShadedSurface& surface, std::span<const uint32_t> lights, ProgramBounds::Block& block,
+             LitApart& lit) const;
   /// The output of a light whose colour is `color` and cannot be another; alpha as in term().
   LightOutput of_color(const ShadedSurface& surface, const Bounded3& color) const;
 
-  const ProgramBounds* program() const { return program_ ? &*program_ : nullptr; }  ///< null: none
+  const ProgramBounds& program() const { return program_; }
   /// Whether terms() are outputs, but for alpha: no finish() makes others of them.
-  bool are_terms_outputs() const { return !program_ || !program_->program().defines_finish; }
+  bool are_terms_outputs() const { return !program_.program().defines_finish; }
   /// Whether lights leave the surface out, as it shows its albedo.
-  bool is_unlit(const ShadedSurface& surface) const { return program_ && program_->is_unlit(surface); }
+  bool is_unlit(const ShadedSurface& surface) const { return program_.is_unlit(surface); }
+  /// Whether a draw has no fragments beyond its light's extent, and not fragments that add nothing.
+  bool discards_beyond_extent() const { return program_.is_users(); }
 
  private:
-  LightOutput output(const ShadedSurface& surface, const LitRange& lit) const;
-  Range alpha(const ShadedSurface& surface) const;
-  LightBounds bounds(const Scene& scene) const;
-  void take_program(const Scene& scene);
+  LightOutput output(const ShadedSurface& surface, LitRange lit) const;
   LitRange alone(const ShadedSurface& surface, uint32_t light) const;
 
-  Scene scene_, dark_, all_;  ///< all_: of a program, whose lights are numbered
-  const Pipeline pipeline_;
+  const Scene& scene_;
   const Profile profile_;
-  LightVolumes limits_;
-  std::array<double, 3> view_axis_;
-  std::optional<LightBounds> lights_, start_;
-  std::optional<ProgramBounds> program_, apart_;  ///< instead of these: with what the sum starts from, and without
-  uint32_t first_ = 0;                            ///< the number of the first light that is set
+  const ProgramBounds program_;
 };
 
 }  // namespace trueshade::oracle

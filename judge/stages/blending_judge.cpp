@@ -64,7 +64,7 @@ BlendingJudge::BlendingJudge(const Scene& scene, const Pipeline& pipeline, const
                        blend_.mask[0] && blend_.mask[1] && blend_.mask[2]),
       keeps_dark_(!color_.layout.srgb && blend_.enabled && blend_.rgb == kAccumulate &&
                   (!blend_.mask[3] || color_.channels < 4)) {
-  if (outputs_.program() != nullptr) require_planes_of(*outputs_.program(), capture);
+  require_planes_of(outputs_.program(), capture);
   const size_t pixels = size_t(pipeline.width) * size_t(pipeline.height);
   covered_.resize(pixels);
   surfaces_.resize(pixels);
@@ -137,11 +137,10 @@ StageVerdict BlendingJudge::verdict(std::string_view stage, const Image* last) {
 void BlendingJudge::judge_batch() {
   const size_t count = batch_.size();
   const std::span<const Light> lights = std::span(scene_.lights).subspan(size_t(first_), count);
-  outputs_.set_lights(lights, uint32_t(first_));
   extents_.assign(count, LightExtent::unbounded);
   outlines_.clear();
   outlines_.resize(count);
-  if (multipass_ && outputs_.program() != nullptr)  // a pass leaves out what is beyond the light's range
+  if (multipass_ && outputs_.discards_beyond_extent())  // a pass leaves out what is beyond the light's range
     for (size_t k = 0; k < count; ++k)
       if (drawn_extent(lights[k], pipeline_.light_volumes) != LightExtent::unbounded) extents_[k] = LightExtent::range;
   if (!multipass_)
@@ -184,7 +183,7 @@ void BlendingJudge::judge_pixel(int x, int y, RowWork& work) {
   work.lights.clear();
   for (size_t i = 0; i < batch_.size(); ++i) {
     if (shown && work.drawn[i] != 0 && count_at(work, i, x).most > 0)
-      work.lights.push_back(uint32_t(i));
+      work.lights.push_back(uint32_t(first_) + uint32_t(i));
     else if (work.changed[i] != 0)
       unchanged(x, y, i);
   }
@@ -192,10 +191,10 @@ void BlendingJudge::judge_pixel(int x, int y, RowWork& work) {
   if (work.lights.empty()) return;
   work.lit.resize(std::max(work.lit.size(), tied.size() + 1));
   const bool stored = multipass_ && first_ == 0;
-  for (size_t t = 0; t < tied.size(); ++t) outputs_.terms(tied[t].surface, work.lights, work.lit[t]);
-  if (covered && !stored) outputs_.terms(surfaces_[at(x, y)], work.lights, work.lit[tied.size()]);
+  for (size_t t = 0; t < tied.size(); ++t) outputs_.terms(tied[t].surface, work.lights, work.block, work.lit[t]);
+  if (covered && !stored) outputs_.terms(surfaces_[at(x, y)], work.lights, work.block, work.lit[tied.size()]);
   for (size_t j = 0; j < work.lights.size(); ++j) {
-    const size_t i = work.lights[j];
+    const size_t i = work.lights[j] - size_t(first_);
     const FragmentCount count = count_at(work, i, x);
     const int light = first_ + int(i);
     if (count.least < count.most) may_be_other(x, y, light, count);
@@ -229,7 +228,7 @@ bool BlendingJudge::as_predicted(int x, int y, size_t i, size_t j, const Fragmen
   if (!codes_.suit() || !tied.empty() || count.least != 1 || count.most != 1) return false;
   if (work.lit[0].one_outcome[j] == 0) return false;
   if (!codes_.as_predicted(work.lit[0].color[j], old, now)) return false;
-  return extents_[i] != LightExtent::range || outputs_.in_range(surfaces_[at(x, y)], uint32_t(i)).surely;
+  return extents_[i] != LightExtent::range || outputs_.in_range(surfaces_[at(x, y)], scene_light(i)).surely;
 }
 
 /// How often the visible surface is a fragment of the light: what covers it, or a comparison with the light's range.
@@ -237,7 +236,7 @@ FragmentCount BlendingJudge::visible_count(const ShadedSurface& surface, size_t 
   if (multipass_ && first_ == 0) return count;
   if (outputs_.is_unlit(surface)) return {0, 0, 0};
   if (extents_[i] != LightExtent::range) return count;
-  const LightOutputs::InRange in = outputs_.in_range(surface, uint32_t(i));
+  const LightOutputs::InRange in = outputs_.in_range(surface, scene_light(i));
   return {uint8_t(in.surely), uint8_t(in.perhaps), uint8_t(in.nominally)};
 }
 
@@ -245,7 +244,7 @@ FragmentCount BlendingJudge::visible_count(const ShadedSurface& surface, size_t 
 void BlendingJudge::count_lights(int x, int y, size_t i, const FragmentCount& count) {
   PixelState& p = pixels_[at(x, y)];
   const auto add = [&](const ShadedSurface& surface, int least, int most) {
-    const LightOutputs::Lit lit = outputs_.lit(surface, uint32_t(i));
+    const LightOutputs::Lit lit = outputs_.lit(surface, scene_light(i));
     p.lights_low += lit.surely ? std::min(least, 1) : 0;
     p.lights_high += lit.perhaps ? most : 0;
   };
@@ -272,7 +271,7 @@ void BlendingJudge::fragments(int x, int y, size_t i, size_t j, const FragmentCo
   work.fragments.clear();
   const std::span<const TiedSurface> tied = tied_at(x, y);
   const auto output = [&](const ShadedSurface& surface, const LitApart& lit) {
-    return lit.one_outcome[j] != 0 ? outputs_.of_color(surface, lit.color[j]) : outputs_.term(surface, uint32_t(i));
+    return lit.one_outcome[j] != 0 ? outputs_.of_color(surface, lit.color[j]) : outputs_.term(surface, scene_light(i));
   };
   const auto add_tied = [&](bool before) {
     for (size_t t = 0; t < tied.size(); ++t)

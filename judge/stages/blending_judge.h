@@ -62,9 +62,10 @@ class BlendingJudge {
   struct RowWork {
     std::vector<std::vector<FragmentCount>> counts;  ///< of lights with a mesh
     std::vector<uint8_t> drawn, changed;             ///< whether any pixel of the row is
-    std::vector<uint32_t> lights;                    ///< of the pixel at hand: those that may draw there
+    std::vector<uint32_t> lights;                    ///< of the scene: those that may draw at the pixel at hand
     std::vector<LitApart> lit;                       ///< by its surfaces: tied ones, then the visible one
     std::vector<DrawnFragment> fragments;
+    ProgramBounds::Block block;
   };
 
   template <class Job>
@@ -75,6 +76,7 @@ class BlendingJudge {
   }
   size_t at(int x, int y) const { return size_t(y) * size_t(pipeline_.width) + size_t(x); }
   const Image& before(size_t i) const { return i == 0 ? before_ : batch_[i - 1]; }
+  uint32_t scene_light(size_t i) const { return uint32_t(first_) + uint32_t(i); }  ///< of the batch's light i
   FragmentCount count_at(const RowWork& work, size_t i, int x) const {
     return work.counts[i].empty() ? FragmentCount{1, 1, 1} : work.counts[i][size_t(x)];
   }

@@ -11,7 +11,6 @@
 #include "judge/stages/judge_blending.h"
 #include "judge/stages/judge_transparency.h"
 #include "judge/stages/thresholds.h"
-#include "oracle/scalar_renderer.h"
 #include "scenes/pipeline/transparency.h"
 
 namespace trueshade::oracle {
@@ -33,10 +32,8 @@ class LightingJudge {
         surface_(scene, pipeline, profile, capture),
         color_(target_of(capture, pipeline)),
         count_(plane_of(capture, pipeline, "light.count")),
-        lights_(scene, pipeline.light_model,
-                view_axis(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height)),
-                profile.arithmetic, profile.exact_planes, pipeline.light_volumes) {
-    if (pipeline.light_program.used()) take_program(capture);
+        lights_(scene, pipeline, profile.arithmetic) {
+    require_planes_of(lights_, capture);
     if (draws_transparent(scene, pipeline) && pipeline.transparency.mode == TransparencyMode::after_lights)
       layers_.emplace(scene, pipeline, profile, capture, rows);
   }
@@ -44,6 +41,7 @@ class LightingJudge {
   /// Rows from y on, tile by tile: pixels that are near each other have few lights.
   void judge_rows(int y, int end, std::vector<RowTally>& rows) const {
     Tile tile;
+    tile.block.counts = bool(count_);
     for (int x = 0; x < pipeline_.width; x += kTile) {
       if (is_settled(x, y, end)) {
         for (int row = y; row < end; ++row)
@@ -67,9 +65,7 @@ class LightingJudge {
   struct Tile {
     int x0 = 0, y0 = 0, x1 = 0;
     std::vector<ShadedSurface> surfaces;  ///< row by row; of pixels without one any
-    LightColumns near;
-    // Of a light program:
-    std::vector<uint32_t> near_lights;
+    std::vector<uint32_t> near;
     std::vector<LitRange> lit;  ///< as surfaces
     mutable ProgramBounds::Block block;
     const LitRange& lit_at(int x, int y) const { return lit[size_t((y - y0) * (x1 - x0) + x - x0)]; }
@@ -86,9 +82,8 @@ class LightingJudge {
     return settled_ != nullptr;
   }
   void look_at(int x0, int y0, int x1, int y1, Tile& tile) const;
-  void light_up(Tile& tile, const std::array<LightBounds::Span, 3>& box, int y1) const;
+  void light_up(Tile& tile, int y1) const;
   uint32_t pixel_at(int x, int y) const { return uint32_t(y) * uint32_t(pipeline_.width) + uint32_t(x); }
-  void take_program(const Capture& capture);
   struct Output {
     std::array<Range, 4> color;
     bool undefined = false;
@@ -112,8 +107,7 @@ class LightingJudge {
   const PlaneView color_, count_;
   const uint32_t sampled_ = std::max(1u, uint32_t(pipeline_.width) * uint32_t(pipeline_.height) / 4096);  // one in
   const bool sees_thresholds_ = converts_as_seen(color_, profile_);
-  const LightBounds lights_;
-  std::optional<ProgramBounds> program_;  ///< instead of these, where the pipeline has a light program
+  const ProgramBounds lights_;
   std::optional<TransparentLayers> layers_;
 };
 
@@ -139,7 +133,7 @@ void LightingJudge::judge_layered(int x, int y, const Tile& tile, RowTally& row)
   if (covered) {
     ++row.covered;
     const ShadedSurface surface = surface_.at(x, y);
-    const LitRange lit = program_ ? tile.lit_at(x, y) : lights_.at(surface);
+    const LitRange& lit = tile.lit_at(x, y);
     LitRange hull = lit;
     for (const OtherBranch& b : lit.branches)
       for (size_t k = 0; k < 3; ++k) hull.color[k].error += std::fabs(b.change[k]);
@@ -165,24 +159,14 @@ void LightingJudge::judge_layered(int x, int y, const Tile& tile, RowTally& row)
   row.take(x, y, v.pixel_class, v.match, std::to_string(pixel.layers.size()) + " transparent fragments");
 }
 
-void LightingJudge::take_program(const Capture& capture) {
-  program_.emplace(scene_, pipeline_, profile_.arithmetic);
-  require_planes_of(*program_, capture);
-}
-
 LightingJudge::Output LightingJudge::output(const LitRange& lit, const std::array<double, 3>& change,
                                             const ShadedSurface& surface, const Tile& tile) const {
   Output out;
   Bounded3 sum = lit.color;
   for (size_t k = 0; k < 3; ++k) sum[k].value += change[k];
-  if (program_) {
-    const ProgramBounds::Finished finished = program_->finished(surface, sum, tile.block.registers);
-    for (size_t k = 0; k < 4; ++k) out.color[k] = range_of(finished.color[k]);
-    out.undefined = finished.undefined;
-    return out;
-  }
-  for (size_t k = 0; k < 3; ++k) out.color[k] = output_range(pipeline_.light_model, sum[k]);
-  out.color[3] = output_range(pipeline_.light_model, surface_.alpha(surface));
+  const ProgramBounds::Finished finished = lights_.finished(surface, sum, tile.block.registers);
+  for (size_t k = 0; k < 4; ++k) out.color[k] = range_of(finished.color[k]);
+  out.undefined = finished.undefined;
   return out;
 }
 
@@ -241,29 +225,21 @@ void LightingJudge::judge_uncovered(int x, int y, RowTally& row) const {
 void LightingJudge::look_at(int x0, int y0, int x1, int y1, Tile& tile) const {
   tile.x0 = x0, tile.y0 = y0, tile.x1 = x1;
   tile.surfaces.resize(size_t(x1 - x0) * size_t(y1 - y0));
-  std::array<LightBounds::Span, 3> box;
-  box.fill({HUGE_VAL, -HUGE_VAL});
   for (int y = y0; y < y1; ++y)
-    for (int x = x0; x < x1; ++x) {
-      if (!surface_.covered(x, y)) continue;
-      ShadedSurface& surface = tile.surfaces[size_t((y - y0) * (x1 - x0) + x - x0)];
-      surface = surface_.at(x, y);
-      for (size_t k = 0; k < 3; ++k) {
-        const double low = surface.position[k].low(), high = surface.position[k].high();
-        const bool is_known = std::isfinite(low) && std::isfinite(high);
-        box[k].low = is_known ? std::min(box[k].low, low) : -HUGE_VAL;
-        box[k].high = is_known ? std::max(box[k].high, high) : HUGE_VAL;
-      }
-    }
-  if (program_) return light_up(tile, box, y1);
-  lights_.take_near(box, tile.near);
+    for (int x = x0; x < x1; ++x)
+      if (surface_.covered(x, y)) tile.surfaces[size_t((y - y0) * (x1 - x0) + x - x0)] = surface_.at(x, y);
+  light_up(tile, y1);
 }
 
-/// The sums of a light program at all surfaces of the tile, by squares of pixels.
-void LightingJudge::light_up(Tile& tile, const std::array<LightBounds::Span, 3>& box, int y1) const {
+/// The sums at all surfaces of the tile, by squares of pixels.
+void LightingJudge::light_up(Tile& tile, int y1) const {
   constexpr int kSide = 8;
   static_assert(size_t(kSide * kSide) <= kIntervalLanes);
-  program_->take_near(box, tile.near_lights);
+  std::vector<const ShadedSurface*> all;
+  for (int y = tile.y0; y < y1; ++y)
+    for (int x = tile.x0; x < tile.x1; ++x)
+      if (surface_.covered(x, y)) all.push_back(&tile.at(x, y));
+  lights_.take_near(all, tile.block, tile.near);
   tile.lit.resize(tile.surfaces.size());
   std::array<const ShadedSurface*, kIntervalLanes> surfaces;
   std::array<LitRange, kIntervalLanes> lit;
@@ -274,7 +250,7 @@ void LightingJudge::light_up(Tile& tile, const std::array<LightBounds::Span, 3>&
         for (int x = left; x < std::min(left + kSide, tile.x1); ++x)
           if (surface_.covered(x, y)) surfaces[count++] = &tile.at(x, y);
       if (count == 0) continue;
-      program_->at({surfaces.data(), count}, tile.near_lights, tile.block, lit);
+      lights_.at({surfaces.data(), count}, tile.near, tile.block, lit);
       for (size_t i = 0; i < count; ++i) tile.lit[size_t(surfaces[i] - tile.surfaces.data())] = std::move(lit[i]);
     }
 }
@@ -284,7 +260,7 @@ void LightingJudge::judge_pixel(int x, int y, const Tile& tile, RowTally& row) c
   if (!surface_.covered(x, y)) return judge_uncovered(x, y, row);
   ++row.covered;
   const ShadedSurface& surface = tile.at(x, y);
-  const LitRange lit = program_ ? tile.lit_at(x, y) : lights_.at(surface, tile.near);
+  const LitRange& lit = tile.lit_at(x, y);
   const Output as_real = output(lit, {}, surface, tile);
   if (lit.undefined || as_real.undefined) return row.take(x, y, PixelClass::undefined, {}, "");
   if (pixel_at(x, y) % sampled_ == 0) keep_power(as_real, row);

@@ -36,8 +36,6 @@ Format blended_format(const Pipeline& pipeline, const Capture& capture) {
   return albedo != nullptr && info(albedo->format).channels > info(asked).channels ? albedo->format : asked;
 }
 
-Range either(const Range& a, const Range& b) { return {a.value, std::min(a.low, b.low), std::max(a.high, b.high)}; }
-
 }  // namespace
 
 /// Depths that the opaque surfaces may have left, as keys.
@@ -53,20 +51,13 @@ TransparentLayers::TransparentLayers(const Scene& scene, const Pipeline& pipelin
       profile_(profile),
       blend_(pipeline.transparency.blend),
       format_(blended_format(pipeline, capture)),
-      model_(pipeline.light_model),
       projector_(scene, forward_of(pipeline), profile, capture.drawn_at) {
-  model_.alpha_from_albedo = true;
   find_fronts(capture, rows);
   fragments_ = find_transparent(projector_, front_high_, rows);
   if (pipeline.transparency.mode != TransparencyMode::after_lights) return;
-  if (pipeline.light_program.used()) {
-    Pipeline of_glass = pipeline;
-    of_glass.light_model.alpha_from_albedo = true;
-    program_.emplace(scene, of_glass, profile_.arithmetic);
-    return;
-  }
-  const auto axis = view_axis(projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height));
-  lights_.emplace(scene, model_, axis, profile_.arithmetic, profile_.exact_planes, pipeline_.light_volumes);
+  Pipeline of_glass = pipeline;
+  of_glass.light_model.alpha_from_albedo = true;
+  lights_.emplace(scene, of_glass, profile_.arithmetic);
 }
 
 void TransparentLayers::find_fronts(const Capture& capture, const JudgedRows& rows) {
@@ -119,30 +110,13 @@ bool TransparentLayers::test_depth(const SurfaceValues& values, const Front& fro
   return true;
 }
 
-/// All that the program may make of the fragment, whichever way its comparisons go, is one set.
-void TransparentLayers::shade_by_program(ShadedSurface surface, TransparentLayer& layer) const {
-  ProgramBounds::Registers registers;
-  std::vector<uint32_t> lights;
-  std::array<LightBounds::Span, 3> box;
-  for (size_t k = 0; k < 3; ++k) box[k] = {surface.position[k].low(), surface.position[k].high()};
-  program_->take_near(box, lights);
-  LitRange lit = program_->at(surface, lights, registers);
-  layer.either_way = !lit.branches.empty();
-  const ProgramBounds::Finished nominal = program_->finished(surface, lit.color, registers);
-  for (const OtherBranch& branch : lit.branches)
-    for (size_t k = 0; k < 3; ++k) lit.color[k].error += std::fabs(branch.change[k]);
-  const ProgramBounds::Finished all = program_->finished(surface, lit.color, registers);
-  for (size_t k = 0; k < 4; ++k) layer.nominal[k] = range_of(nominal.color[k]), layer.other[k] = range_of(all.color[k]);
-  layer.undefined = layer.undefined || lit.undefined || nominal.undefined || all.undefined ||
-                    !are_numbers(layer.nominal) || !are_numbers(layer.other);
-}
-
+/// All that the lights may make of the fragment, whichever way comparisons go, is one set.
 void TransparentLayers::shade(const SurfaceValues& values, const PossibleSurface& drawn, int x, int y,
                               TransparentLayer& layer) const {
   const Interpolation how = pipeline_.gbuffer.albedo.interpolation;
   layer.looked_up = values.looked_up();
   layer.undefined = !values.bounded();
-  if (!lights_ && !program_) {
+  if (!lights_) {
     for (int k = 0; k < 4; ++k) {
       const Range base = values.base_color(k, how);
       layer.nominal[size_t(k)] = k < 3 ? values.albedo(base) : base;
@@ -152,18 +126,19 @@ void TransparentLayers::shade(const SurfaceValues& values, const PossibleSurface
   ShadedSurface surface = shaded_surface(values, pipeline_.gbuffer);
   surface.object = drawn.instance + 1, surface.pixel = {x, y};
   surface.material = projector_.scene().instances[drawn.instance].material + 1;
-  if (program_) return shade_by_program(surface, layer);
-  const LitRange lit = lights_->at(surface);
-  layer.undefined = layer.undefined || lit.undefined;
+  ProgramBounds::Block block;
+  std::vector<uint32_t> near;
+  const ShadedSurface* const only[] = {&surface};
+  lights_->take_near(only, block, near);
+  LitRange lit = lights_->at(surface, near, block.registers);
   layer.either_way = !lit.branches.empty();
-  for (size_t k = 0; k < 3; ++k) {
-    layer.nominal[k] = layer.other[k] = output_range(model_, lit.color[k]);
-    Bounded up = lit.color[k], down = lit.color[k];
-    for (const OtherBranch& branch : lit.branches) (branch.change[k] > 0 ? up : down).value += branch.change[k];
-    layer.other[k] = either(layer.nominal[k], either(output_range(model_, up), output_range(model_, down)));
-  }
-  layer.nominal[3] = layer.other[3] = output_range(model_, surface.albedo[3]);
-  layer.undefined = layer.undefined || !are_numbers(layer.nominal) || !are_numbers(layer.other);
+  const ProgramBounds::Finished nominal = lights_->finished(surface, lit.color, block.registers);
+  for (const OtherBranch& branch : lit.branches)
+    for (size_t k = 0; k < 3; ++k) lit.color[k].error += std::fabs(branch.change[k]);
+  const ProgramBounds::Finished all = lights_->finished(surface, lit.color, block.registers);
+  for (size_t k = 0; k < 4; ++k) layer.nominal[k] = range_of(nominal.color[k]), layer.other[k] = range_of(all.color[k]);
+  layer.undefined = layer.undefined || lit.undefined || nominal.undefined || all.undefined ||
+                    !are_numbers(layer.nominal) || !are_numbers(layer.other);
 }
 
 TransparentPixel TransparentLayers::at(int x, int y_top, uint32_t first, uint32_t end) const {

@@ -93,7 +93,6 @@ class TransparentLayers {
   struct Front;
   bool test_depth(const SurfaceValues& values, const Front& front, TransparentLayer& layer) const;
   void shade(const SurfaceValues& values, const PossibleSurface& surface, int x, int y, TransparentLayer& layer) const;
-  void shade_by_program(ShadedSurface surface, TransparentLayer& layer) const;
   void find_fronts(const Capture& capture, const JudgedRows& rows);
   void chain(const TransparentPixel& pixel, const Texel& from, unsigned drawn, bool other,
              std::vector<LayeredTexel>& out) const;
@@ -102,12 +101,10 @@ class TransparentLayers {
   const Profile profile_;
   const BlendState blend_;
   const Format format_;
-  LightModel model_;
   Projector projector_;
   std::vector<double> front_low_, front_high_;  ///< keys of the opaque depth, row 0 the bottom row
   PossibleSurfaces fragments_;
-  std::optional<LightBounds> lights_;
-  std::optional<ProgramBounds> program_;  ///< instead of these
+  std::optional<ProgramBounds> lights_;  ///< after_lights
 };
 
 /// The scene with its transparent surfaces gone, but not their places among the instances.

@@ -8,7 +8,7 @@ namespace trueshade::programs {
 namespace {
 
 [[noreturn]] void refuse(const std::string& file) {
-  throw Error(ErrorKind::usage, file, "light programs are left out of this build, which found no glslang",
+  throw Error(ErrorKind::usage, file, "light programs, as explain and validate read every light model, are left out of this build, which found no glslang",
               "install glslang-dev and spirv-tools, and build anew");
 }
 

@@ -3,9 +3,10 @@
 #include "gl/driver/fixed_function.h"
 
 #include <cmath>
+#include <numeric>
 #include <random>
 
-#include "judge/bounds/shading.h"
+#include "judge/bounds/program_bounds.h"
 #include "scenes/pipeline/presets.h"
 #include "tests/catch.hpp"
 #include "tests/gl/driver.h"
@@ -85,7 +86,7 @@ bool explained(const LitRange& lit, const std::array<float, 4>& color) {
 TEST_CASE("OpenGL's own lighting of points lies in what the fixed-function model allows", "[gl]") {
   const GlContext* context = testing::opened(GlDriver::any);
   if (context == nullptr) return;
-  const LightModel model = preset_pipeline("gl-fixed")->light_model;
+  const Pipeline pipeline = *preset_pipeline("gl-fixed");
   Random random(52);
   for (int frame = 0; frame < 40; ++frame) {
     Scene scene;
@@ -98,8 +99,12 @@ TEST_CASE("OpenGL's own lighting of points lies in what the fixed-function model
       WARN("SKIPPED: the driver has no compatibility profile");
       return;
     }
+    const ProgramBounds bounds(scene, pipeline, Arithmetic{});
+    ProgramBounds::Registers registers;
+    std::vector<uint32_t> all(scene.lights.size());
+    std::iota(all.begin(), all.end(), 0u);
     for (size_t i = 0; i < points.size(); ++i) {
-      const LitRange lit = lit_range(surface_of(points[i]), scene, model, {0, 0, 1}, Arithmetic{}, false);
+      const LitRange lit = bounds.at(surface_of(points[i]), all, registers);
       if (lit.undefined) continue;
       const auto& color = (*colors)[i];
       CAPTURE(frame, i, color[0], color[1], color[2], lit.color[0].value, lit.color[0].error, lit.color[1].value,

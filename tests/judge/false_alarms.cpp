@@ -1,9 +1,10 @@
 // Images drawn by legal means of every kind must be accepted; and the bound of lighting must hold without being slack.
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <set>
 
-#include "judge/bounds/shading.h"
+#include "judge/bounds/program_bounds.h"
 #include "judge/stages/judge.h"
 #include "tests/catch.hpp"
 #include "tests/judge/captured.h"
@@ -162,9 +163,13 @@ Scene lights_around(int count, uint64_t seed) {
 /// far as GLSL lets it stays inside.
 void check_bound(int count, float s, int step) {
   const Scene scene = lights_around(count, uint64_t(count) * 1000 + uint64_t(s));
-  LightModel model;
+  Pipeline pipeline;
+  LightModel& model = pipeline.light_model;
   model.shininess = s;
-  const LightBounds bounds(scene, model, {}, Arithmetic{}, false);
+  const ProgramBounds bounds(scene, pipeline, Arithmetic{});
+  ProgramBounds::Registers registers;
+  std::vector<uint32_t> all(scene.lights.size());
+  std::iota(all.begin(), all.end(), 0u);
   double nearest_ratio = 0, loose_ratio = 0, largest_bound = 0;
   int branches = 0;
   for (int y = 0; y < 128; y += step)
@@ -180,7 +185,7 @@ void check_bound(int count, float s, int step) {
         surface.normal[k] = {double(normal[k]), 0};
         surface.albedo[k] = {double(albedo[k]), 0};
       }
-      const LitRange range = bounds.at(surface);
+      const LitRange range = bounds.at(surface, all, registers);
       if (!range.branches.empty()) {
         ++branches;
         continue;

@@ -235,33 +235,6 @@ TEST_CASE("Light programs judged in lanes have the lights and branches of one by
   }
 }
 
-TEST_CASE("The bounds of many-lights as a program are as tight as those of its closed form") {
-  const Pipeline preset = *preset_pipeline("many-lights"), program = pipeline_of(model("many_lights"));
-  Pcg32 random(3, 5);
-  const Scene lights = scene_of(random, 30);
-  const Arithmetic arithmetic = Profile{}.arithmetic;
-  const LightBounds closed(lights, preset.light_model, {0, 0, 1}, arithmetic, false, program.light_volumes);
-  const ProgramBounds general(lights, program, arithmetic);
-  ProgramBounds::Registers registers;
-  std::vector<uint32_t> all(lights.lights.size());
-  for (uint32_t i = 0; i < all.size(); ++i) all[i] = i;
-  std::vector<double> quotients;
-  for (int i = 0; i < 3000; ++i) {
-    ShadedSurface surface = surface_of(random);
-    const LitRange a = closed.one_by_one(surface), b = general.at(surface, all, registers);
-    for (size_t k = 0; k < 3 && !a.undefined && !b.undefined && a.branches.empty() && b.branches.empty(); ++k) {
-      REQUIRE(a.color[k].value == Approx(b.color[k].value).epsilon(1e-9));
-      if (a.color[k].error > 1e-20) quotients.push_back(b.color[k].error / a.color[k].error);
-    }
-  }
-  std::sort(quotients.begin(), quotients.end());
-  REQUIRE(quotients.size() > 5000);
-  const double median = quotients[quotients.size() / 2], most = quotients[quotients.size() * 99 / 100];
-  INFO("median " << median << ", 99 % " << most << ", largest " << quotients.back());
-  CHECK(median <= 1.0);
-  CHECK(most <= 1.25);
-}
-
 namespace {
 
 /// A fault as people make it in a light's GLSL.
