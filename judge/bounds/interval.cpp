@@ -244,7 +244,8 @@ Interval IntervalArithmetic::sum(std::span<const Interval> terms, double more) c
   }
   // Partial sums are rounded too, those but the last at most to a part of all magnitudes.
   const double partial = double(terms.size() - 2) * a_.roundoff * magnitude;
-  if (terms.size() > 2) out.low -= partial, out.high += partial;
+  const bool is_infinite = out.low == out.high && std::isinf(out.low);  // which nothing changes
+  if (terms.size() > 2 && !is_infinite) out.low -= partial, out.high += partial;
   if (more != 0 && !(more < HUGE_VAL)) return Interval::anything();
   out.low -= more, out.high += more;
   if (not_negative) out.low = std::max(out.low, 0.0);

@@ -40,8 +40,7 @@ class Lanes {
   explicit Lanes(const ProgramLanes& in) : in_(in), to_nearest_(in.arithmetic.roundoff <= 0x1p-24) {}
 
   void run() {
-    for (const ProgramStep& step : in_.steps)
-      for (size_t i = 0; i < in_.count; i += hn::Lanes(D())) run(step, i);
+    for (const ProgramStep& step : in_.steps) run(step);
   }
 
  private:
@@ -91,7 +90,9 @@ class Lanes {
     x.high = hn::IfThenElse(small(x.high), hn::IfThenElse(hn::Gt(x.high, zero), least, zero), x.high);
     x.high = hn::IfThenElse(hn::Gt(x.high, most), number(HUGE_VAL), x.high);
     x.low = hn::IfThenElse(hn::Lt(x.low, hn::Neg(most)), number(-HUGE_VAL), x.low);
-    x.low = hn::Min(x.low, most), x.high = hn::Max(x.high, hn::Neg(most));
+    const V infinite = number(HUGE_VAL);  // what surely is, stays
+    x.low = hn::IfThenElse(hn::Eq(x.low, infinite), x.low, hn::Min(x.low, most));
+    x.high = hn::IfThenElse(hn::Eq(x.high, hn::Neg(infinite)), x.high, hn::Max(x.high, hn::Neg(most)));
     return chosen(wrong, anything(x.value), x);
   }
 
@@ -130,7 +131,8 @@ class Lanes {
 
   Three summed(const ProgramStep& step, size_t i, Three out, V magnitude, V least, V most) const {
     const V zero = hn::Zero(D()), unit = number(double(step.terms - 2) * in_.arithmetic.roundoff);
-    const V partial = hn::Mul(unit, magnitude);
+    const M is_infinite = hn::And(hn::Eq(out.low, out.high), hn::Eq(hn::Abs(out.low), number(HUGE_VAL)));
+    const V partial = hn::IfThenZeroElse(is_infinite, hn::Mul(unit, magnitude));
     if (step.terms > 2) out.low = hn::Sub(out.low, partial), out.high = hn::Add(out.high, partial);
     M wrong = hn::Ne(zero, zero);
     for (uint32_t k = 0; k < step.mixes; ++k) {
@@ -208,17 +210,19 @@ class Lanes {
     return chosen(wrong, anything(out.value), out);
   }
 
+  HWY_NOINLINE void leave(M open, size_t i) const {
+    HWY_ALIGN double is_open[hn::MaxLanes(D())];
+    hn::Store(hn::IfThenElseZero(open, number(1)), D(), is_open);
+    for (size_t k = 0; k < hn::Lanes(D()); ++k)
+      if (is_open[k] != 0) in_.left[i + k] = 1;
+  }
+
   /// Truth: 0 or 1. Lanes where neither is sure are left.
   Three truth(M nominal, M perhaps, M perhaps_not, size_t i) const {
     const V one = number(1), zero = hn::Zero(D());
     if (in_.left != nullptr) {
       const M open = hn::And(perhaps, perhaps_not);
-      if (!hn::AllFalse(D(), open)) {
-        HWY_ALIGN double is_open[hn::MaxLanes(D())];
-        hn::Store(hn::IfThenElseZero(open, one), D(), is_open);
-        for (size_t k = 0; k < hn::Lanes(D()); ++k)
-          if (is_open[k] != 0) in_.left[i + k] = 1;
-      }
+      if (!hn::AllFalse(D(), open)) leave(open, i);
     }
     return {hn::IfThenElse(nominal, one, zero), hn::IfThenElse(perhaps_not, zero, one),
             hn::IfThenElse(perhaps, one, zero)};
@@ -326,71 +330,101 @@ class Lanes {
     }
   }
 
-  void run(const ProgramStep& step, size_t i) const {
-    if (step.terms > 0) return store(step, i, sum(step, i));
+  /// Of each vector of lanes.
+  template <class F>
+  void each(const ProgramStep& step, F f) const {
+    for (size_t i = 0; i < in_.count; i += hn::Lanes(D())) store(step, i, f(i));
+  }
+  template <class F>
+  void each_of_one(const ProgramStep& step, F f) const {
+    each(step, [&](size_t i) { return f(load(step.from[0], i)); });
+  }
+  template <class F>
+  void each_of_two(const ProgramStep& step, F f) const {
+    each(step, [&](size_t i) { return f(load(step.from[0], i), load(step.from[1], i)); });
+  }
+
+  static Three least_of(const Three& x, const Three& y) {
+    return {hn::Min(x.value, y.value), hn::Min(x.low, y.low), hn::Min(x.high, y.high)};
+  }
+  static Three most_of(const Three& x, const Three& y) {
+    return {hn::Max(x.value, y.value), hn::Max(x.low, y.low), hn::Max(x.high, y.high)};
+  }
+  static Three unless_nan(const Three& x, const Three& y, const Three& out) {
+    return chosen(hn::Or(is_anything(x), is_anything(y)), anything(out.value), out);
+  }
+
+  Three of_unit_vector(const Three& x) const {
+    const V most = number(largest_of_unit(in_.arithmetic)), least = hn::Neg(most);
+    const Three bounded{x.value, hn::Clamp(x.low, least, most), hn::Clamp(x.high, least, most)};
+    return chosen(is_anything(x), x, bounded);
+  }
+
+  static Three magnitude(const Three& x) {
+    const V zero = hn::Zero(D());
+    const M across = hn::And(hn::Le(x.low, zero), hn::Ge(x.high, zero));
+    const V least = hn::IfThenZeroElse(across, hn::Min(hn::Abs(x.low), hn::Abs(x.high)));
+    return chosen(is_anything(x), x, {hn::Abs(x.value), least, size_of(x)});
+  }
+
+  void run(const ProgramStep& step) const {
+    if (step.terms > 0) return each(step, [&](size_t i) { return sum(step, i); });
     const Op op = step.node.op;
-    const Three x = load(step.from[0], i);
     const V zero = hn::Zero(D()), one = number(1);
     switch (op) {
       case Op::f_add:
-        return store(step, i, two_terms(x, load(step.from[1], i)));
+        return each_of_two(step, [&](const Three& x, const Three& y) { return two_terms(x, y); });
       case Op::f_sub:
-        return store(step, i, two_terms(x, negated(load(step.from[1], i))));
-      case Op::f_mul: {
-        Three out = product(step, x, load(step.from[1], i));
-        if (step.of_unit_vector) {
-          const V most = number(largest_of_unit(in_.arithmetic)), least = hn::Neg(most);
-          const Three bounded{out.value, hn::Clamp(out.low, least, most), hn::Clamp(out.high, least, most)};
-          out = chosen(is_anything(out), out, bounded);
-        }
-        return store(step, i, out);
-      }
+        return each_of_two(step, [&](const Three& x, const Three& y) { return two_terms(x, negated(y)); });
+      case Op::f_mul:
+        return each_of_two(step, [&](const Three& x, const Three& y) {
+          const Three out = product(step, x, y);
+          return step.of_unit_vector ? of_unit_vector(out) : out;
+        });
       case Op::f_div:
-        return store(step, i, quotient(x, load(step.from[1], i)));
+        return each_of_two(step, [&](const Three& x, const Three& y) { return quotient(x, y); });
       case Op::f_sqrt:
-        return store(step, i, root(x, false));
+        return each_of_one(step, [&](const Three& x) { return root(x, false); });
       case Op::f_inverse_sqrt:
-        return store(step, i, root(x, true));
+        return each_of_one(step, [&](const Three& x) { return root(x, true); });
       case Op::f_neg:
-        return store(step, i, negated(x));
-      case Op::f_abs: {
-        const M across = hn::And(hn::Le(x.low, zero), hn::Ge(x.high, zero));
-        const V least = hn::IfThenZeroElse(across, hn::Min(hn::Abs(x.low), hn::Abs(x.high)));
-        return store(step, i, chosen(is_anything(x), x, {hn::Abs(x.value), least, size_of(x)}));
-      }
+        return each_of_one(step, [](const Three& x) { return negated(x); });
+      case Op::f_abs:
+        return each_of_one(step, [](const Three& x) { return magnitude(x); });
       case Op::f_min:
-      case Op::f_max: {
-        const Three y = load(step.from[1], i);
-        const Three out = op == Op::f_min
-                              ? Three{hn::Min(x.value, y.value), hn::Min(x.low, y.low), hn::Min(x.high, y.high)}
-                              : Three{hn::Max(x.value, y.value), hn::Max(x.low, y.low), hn::Max(x.high, y.high)};
-        return store(step, i, chosen(hn::Or(is_anything(x), is_anything(y)), anything(out.value), out));
-      }
+        return each_of_two(step, [](const Three& x, const Three& y) { return unless_nan(x, y, least_of(x, y)); });
+      case Op::f_max:
+        return each_of_two(step, [](const Three& x, const Three& y) { return unless_nan(x, y, most_of(x, y)); });
       case Op::f_eq:
       case Op::f_ne:
       case Op::f_lt:
       case Op::f_le:
-        if (step.of_itself) return store(step, i, of_itself(op, x));
-        return store(step, i, compared(op, x, load(step.from[1], i), i));
-      case Op::select: {
-        Three out = selected(x, load(step.from[1], i), load(step.from[2], i));
-        if (step.normalizes && !in_.arithmetic.exact_pow) out = chosen(hn::Gt(x.low, zero), out, anything(out.value));
-        return store(step, i, out);
-      }
+        if (step.of_itself) return each_of_one(step, [&](const Three& x) { return of_itself(op, x); });
+        return each(step, [&](size_t i) { return compared(op, load(step.from[0], i), load(step.from[1], i), i); });
+      case Op::select:
+        return each(step, [&](size_t i) {
+          const Three x = load(step.from[0], i);
+          const Three out = selected(x, load(step.from[1], i), load(step.from[2], i));
+          if (!step.normalizes || in_.arithmetic.exact_pow) return out;
+          return chosen(hn::Gt(x.low, zero), out, anything(out.value));
+        });
       case Op::b_not:
-        return store(step, i, {hn::Sub(one, x.value), hn::Sub(one, x.high), hn::Sub(one, x.low)});
+        return each_of_one(step, [&](const Three& x) {
+          return Three{hn::Sub(one, x.value), hn::Sub(one, x.high), hn::Sub(one, x.low)};
+        });
       case Op::b_and:
-      case Op::b_or: {
-        const Three y = load(step.from[1], i);
-        if (op == Op::b_and)
-          return store(step, i, {hn::Min(x.value, y.value), hn::Min(x.low, y.low), hn::Min(x.high, y.high)});
-        return store(step, i, {hn::Max(x.value, y.value), hn::Max(x.low, y.low), hn::Max(x.high, y.high)});
-      }
+        return each_of_two(step, [](const Three& x, const Three& y) { return least_of(x, y); });
+      case Op::b_or:
+        return each_of_two(step, [](const Three& x, const Three& y) { return most_of(x, y); });
       case Op::pow:
-        if (const Three y = load(step.from[1], i); are_whole(y)) return store(step, i, power(x, y.low));
-        return run_one_by_one(step, i);
+        for (size_t i = 0; i < in_.count; i += hn::Lanes(D()))
+          if (const Three y = load(step.from[1], i); are_whole(y))
+            store(step, i, power(load(step.from[0], i), y.low));
+          else
+            run_one_by_one(step, i);
+        return;
       default:
-        return run_one_by_one(step, i);
+        for (size_t i = 0; i < in_.count; i += hn::Lanes(D())) run_one_by_one(step, i);
     }
   }
 
