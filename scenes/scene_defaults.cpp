@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/vec2.hpp>
+#include <limits>
 
 #include "scenes/trig.h"
 
@@ -36,13 +38,67 @@ Bounds bounds_of(const Scene& scene) {
   return {(least + most) * 0.5, radius > 0.0 ? radius : 1.0, least};
 }
 
-Camera camera_seeing(const Bounds& bounds) {
+namespace {
+
+/// The points of a scene as they are seen along `toward`, with the slopes of rays at the edge of what they are to fill.
+struct SeenPoints {
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  glm::dvec3 centre{0.0}, right{0.0}, up{0.0}, toward{0.0};
+  double slope = 1.0;
+  glm::dvec2 most{-kInfinity}, least{kInfinity};  ///< of x + slope z and of x - slope z, of y alike
+  double front = -kInfinity;                      ///< of z
+
+  void add(const glm::dvec3& point) {
+    const glm::dvec3 from = point - centre;
+    const glm::dvec2 at(dot(from, right), dot(from, up));
+    const double z = dot(from, toward);
+    front = std::max(front, z);
+    for (int k = 0; k < 2; ++k)
+      most[k] = std::max(most[k], at[k] + slope * z), least[k] = std::min(least[k], at[k] - slope * z);
+  }
+};
+
+/// All vertices, or of very many the corners of the box.
+void add_points(const Scene& scene, const Bounds& bounds, SeenPoints& seen) {
+  constexpr size_t kMost = 20'000'000;
+  size_t count = 0;
+  for (const Instance& instance : scene.instances) count += scene.meshes[instance.mesh].vertex_count();
+  if (count == 0 || count > kMost) {
+    const glm::dvec3 half = bounds.centre - bounds.least;
+    for (int i = 0; i < 8; ++i)
+      seen.add(bounds.centre + half * glm::dvec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+    return;
+  }
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const auto& from = instance.world_from_object;
+    for (size_t i = 0; i < mesh.vertex_count(); ++i) {
+      glm::dvec3 at(from[3]);
+      for (int k = 0; k < 3; ++k) at += glm::dvec3(from[k]) * double(mesh.position[size_t(k)][i]);
+      seen.add(at);
+    }
+  }
+}
+
+}  // namespace
+
+Camera camera_seeing(const Scene& scene) {
+  constexpr double kFilled = 0.85, kNearest = 0.25;
+  const Bounds bounds = bounds_of(scene);
   Camera camera;
   camera.fov_y_rad = 0.7f;
-  const double distance = bounds.radius / sine(0.5 * double(camera.fov_y_rad));
-  camera.eye = glm::vec3(bounds.centre + unit({0.35, 0.3, 1.0}) * distance);
-  camera.target = glm::vec3(bounds.centre);
-  camera.near = float(0.2 * (distance - bounds.radius));
+  SeenPoints seen;
+  seen.centre = bounds.centre, seen.toward = unit({0.35, 0.3, 1.0});
+  seen.right = unit(cross(glm::dvec3(0.0, 1.0, 0.0), seen.toward)), seen.up = cross(seen.toward, seen.right);
+  seen.slope = kFilled * tangent(0.5 * double(camera.fov_y_rad));
+  add_points(scene, bounds, seen);
+  // A point at x and z is seen within the slope from a distance d and an offset o where |x - o| <= slope (d - z).
+  const glm::dvec2 wide = (seen.most - seen.least) / (2.0 * seen.slope), off = (seen.most + seen.least) / 2.0;
+  const double distance = std::max({wide.x, wide.y, seen.front + kNearest * bounds.radius});
+  const glm::dvec3 target = bounds.centre + seen.right * off.x + seen.up * off.y;
+  camera.eye = glm::vec3(target + seen.toward * distance);
+  camera.target = glm::vec3(target);
+  camera.near = float(0.2 * (distance - seen.front));
   camera.far = float(distance + 4.0 * bounds.radius);
   return camera;
 }

@@ -12,7 +12,8 @@ struct Bounds {
 };
 Bounds bounds_of(const Scene& scene);
 
-/// A camera above and to the right of the front that sees the whole sphere of `bounds`.
-Camera camera_seeing(const Bounds& bounds);
+/// A camera above and to the right of the front that sees all that is drawn: in a square picture it fills 85 % of the
+/// width or of the height, and is in the middle.
+Camera camera_seeing(const Scene& scene);
 
 }  // namespace trueshade

@@ -27,7 +27,7 @@ Scene scene_of(Mesh mesh) {
 
 /// Geometry alone: seen whole, under lights of ours, on a ground.
 Scene shown(Scene scene) {
-  scene.camera = camera_seeing(bounds_of(scene));
+  scene.camera = camera_seeing(scene);
   add_lights_of_ours(scene);
   add_ground(scene);
   return scene;

@@ -116,7 +116,7 @@ Scene scene_from_json(std::string_view text, const std::string& path, const Scen
     read_camera(*camera, scene);
   }
   set_time(scene, 0.0);
-  if (!camera && !reference) scene.camera = camera_seeing(bounds_of(scene));
+  if (!camera && !reference) scene.camera = camera_seeing(scene);
   return scene;
 }
 

@@ -30,7 +30,7 @@ Scene SceneMaker::make() {
   pictures_.decode_all([this] { read_geometry_and_nodes(); });
   bake_uv(scene_, materials_.uv_sources(), [this](uint64_t bytes) { accessors_.take(bytes, "/meshes"); });
   set_time(scene_, 0.0);
-  if (!timeline.node_camera) scene_.camera = camera_seeing(bounds_of(scene_));
+  if (!timeline.node_camera) scene_.camera = camera_seeing(scene_);
   if (!moves()) timeline = Timeline{};
   if (scene_.lights.empty()) add_lights_of_ours(scene_);
   add_notes();
