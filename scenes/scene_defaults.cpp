@@ -86,9 +86,9 @@ Camera camera_seeing(const Scene& scene) {
   constexpr double kFilled = 0.85, kNearest = 0.25;
   const Bounds bounds = bounds_of(scene);
   Camera camera;
-  camera.fov_y_rad = 0.7f;
+  camera.fov_y_rad = 0.5f;
   SeenPoints seen;
-  seen.centre = bounds.centre, seen.toward = unit({0.35, 0.3, 1.0});
+  seen.centre = bounds.centre, seen.toward = unit({0.45, 0.38, 1.0});
   seen.right = unit(cross(glm::dvec3(0.0, 1.0, 0.0), seen.toward)), seen.up = cross(seen.toward, seen.right);
   seen.slope = kFilled * tangent(0.5 * double(camera.fov_y_rad));
   add_points(scene, bounds, seen);
