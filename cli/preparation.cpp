@@ -97,7 +97,7 @@ ProgramParameter parameter_of(const std::string& text) {
     const std::string number = text.substr(at + 1, text.find(',', at + 1) - at - 1);
     float value = 0;
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
-    if (error != std::errc() || end != number.data() + number.size() || out.value.size() == 4) throw wrong();
+    if (error != std::errc() || end != number.data() + number.size()) throw wrong();
     out.value.push_back(value);
   }
   return out;

@@ -11,28 +11,30 @@
 namespace trueshade::viewer {
 namespace {
 
+/// Those of the block that the program reads, in the order of the block.
 std::vector<ModelParameter> parameters_of(const programs::Program& program, const std::string& text) {
-  const std::vector<DeclaredParameter> declared = declared_parameters(text);
+  const std::vector<DeclaredParameter> ranges = declared_parameters(text);
   std::vector<ModelParameter> parameters;
-  for (const programs::ProgramInput& input : program.inputs) {
-    if (!input.name.starts_with(kParameterBlock)) continue;
-    const std::string whole = without_component(input.name);
-    const std::string name = whole.substr(kParameterBlock.size());
-    const size_t component = whole == input.name ? 0 : std::string_view("xyzw").find(input.name.back());
-    auto known = std::find_if(parameters.begin(), parameters.end(), [&](const auto& one) { return one.name == name; });
-    if (known == parameters.end()) {
-      const ParameterRange* const range = range_of(declared, name);
-      parameters.push_back({name, 1, input.type == programs::Type::f32, range ? std::optional(*range) : std::nullopt});
-      known = parameters.end() - 1;
-    }
-    known->components = std::max(known->components, component + 1);
+  for (const std::string& declaration : program.parameters) {
+    const ParameterType type = parameter_type(declaration);
+    const std::string whole = std::string(kParameterBlock) + type.name;
+    const auto is_part = [&](const programs::ProgramInput& input) {
+      return type.components == 1 ? input.name == whole : without_component(input.name) == whole;
+    };
+    if (std::none_of(program.inputs.begin(), program.inputs.end(), is_part)) continue;
+    const ParameterRange* const range = range_of(ranges, type.name.substr(0, type.name.find('[')));
+    parameters.push_back(
+        {type.name, type.components, type.is_float, type.is_signed, range ? std::optional(*range) : std::nullopt});
   }
-  const auto place = [&](const ModelParameter& one) {
-    return std::find_if(declared.begin(), declared.end(), [&](const auto& other) { return other.name == one.name; });
-  };
-  std::stable_sort(parameters.begin(), parameters.end(),
-                   [&](const auto& a, const auto& b) { return place(a) < place(b); });
   return parameters;
+}
+
+/// Whether the value is one of the parameter's type, within its range.
+bool takes(const ModelParameter& parameter, float value) {
+  const float least = parameter.is_signed ? -kLargestWholeParameter : 0.0f;
+  const bool has_type =
+      parameter.is_float || (value == std::floor(value) && value >= least && value <= kLargestWholeParameter);
+  return has_type && (!parameter.range || parameter.range->holds(value));
 }
 
 float first_value(const ModelParameter& parameter) {
@@ -48,7 +50,7 @@ std::vector<float> value_for(const ModelParameter& parameter, const std::vector<
   for (const ProgramParameter& one : had) {
     if (one.name != parameter.name) continue;
     for (size_t c = 0; c < std::min(value.size(), one.value.size()); ++c)
-      if (!parameter.range || parameter.range->holds(one.value[c])) value[c] = one.value[c];
+      if (takes(parameter, one.value[c])) value[c] = one.value[c];
   }
   return value;
 }
@@ -68,8 +70,9 @@ ReadyModel ready_model(LightProgram program) {
     model.inputs.push_back(input.name);
     model.reads_time = model.reads_time || input.name == "view.time" || input.name == "view.frame";
   }
+  model.declared = executable->program.parameters;
   require_fields(model.program.file, program_reads(model.program.file, model.inputs).captured);
-  check_values(model.program, model.inputs);
+  check_values(model.program, model.inputs, model.declared);
   return model;
 }
 

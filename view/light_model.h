@@ -13,6 +13,7 @@ struct ModelParameter {
   std::string name;
   size_t components = 1;
   bool is_float = true;  ///< else whole numbers
+  bool is_signed = true;
   std::optional<ParameterRange> range;
 };
 
@@ -20,7 +21,8 @@ struct ModelParameter {
 struct ReadyModel {
   LightProgram program;  ///< with a value for each parameter
   std::vector<ModelParameter> parameters;
-  std::vector<std::string> inputs;  ///< that it reads, as programs::Program has them
+  std::vector<std::string> inputs;    ///< that it reads, as programs::Program has them
+  std::vector<std::string> declared;  ///< as programs::Program::parameters has them
   bool reads_time = false;
 };
 

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "scenes/light_models/light_models.h"
 #include "scenes/pipeline/presets.h"
+#include "scenes/pipeline/program_inputs.h"
 #include "view/saved_files.h"
 
 namespace trueshade::viewer {
@@ -31,7 +32,9 @@ Session::Session(SceneSource source, OpenedScene opened, const Execution& execut
   watch_.watch(facts_.files);
   if (const LightProgram& program = facts_.pipeline.light_program; program.used()) {
     if (!names_shipped_model(program.file)) model_watch_.watch({model_file_ = program.file});
-    use(ready_model(program));
+    ReadyModel model = ready_model(program);
+    check_given(program, model.inputs, model.declared);
+    use(std::move(model));
   }
   changed();
 }

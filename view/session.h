@@ -128,7 +128,7 @@ class Session {
   std::vector<ModelParameter> parameters_;
   std::optional<BrokenModel> broken_model_;
   uint64_t model_revision_ = 0;
-  std::vector<std::string> model_inputs_;
+  std::vector<std::string> model_inputs_, model_declared_;
   bool model_reads_time_ = false;
   SourceWatch watch_, model_watch_;
   double clock_ = 0.0, next_look_ = 0.0;

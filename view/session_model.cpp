@@ -13,7 +13,8 @@ namespace trueshade::viewer {
 void Session::use(ReadyModel model) {
   for (Pipeline* pipeline : {&state_.pipeline, &base_pipeline_}) pipeline->light_program = model.program;
   parameters_ = std::move(model.parameters);
-  model_inputs_ = std::move(model.inputs), model_reads_time_ = model.reads_time;
+  model_inputs_ = std::move(model.inputs), model_declared_ = std::move(model.declared),
+  model_reads_time_ = model.reads_time;
   plays_ = plays_ && has_time();
   ++model_revision_;
 }
@@ -38,7 +39,7 @@ void Session::set_parameter(const std::string& name, const std::vector<float>& v
                 "the light model reads no '" + name + "' of " + std::to_string(value.size()) + " numbers",
                 "the panel `model` names its parameters");
   known->value = value;
-  check_values(program, model_inputs_);
+  check_values(program, model_inputs_, model_declared_);
   for (Pipeline* pipeline : {&state_.pipeline, &base_pipeline_}) pipeline->light_program = program;
   changed();
 }

@@ -35,7 +35,7 @@ std::shared_ptr<const LightText> light_text_of(const Pipeline& pipeline) {
     if (there == nullptr) there = std::make_shared<LightText>(made(program));
     out = there;
   }
-  check_values(program, out->outline.inputs);
+  check_values(program, out->outline.inputs, out->outline.declared);
   return out;
 }
 

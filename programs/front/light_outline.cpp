@@ -196,6 +196,7 @@ LightOutline light_outline(const std::string& file, const std::string& text) {
   out.defines_reaches = program.defines_reaches;
   out.defines_start = program.defines_start;
   out.defines_finish = program.defines_finish;
+  out.declared = program.parameters;
   for (const ProgramInput& input : program.inputs) out.inputs.push_back(input.name);
   try {
     const SpirvModule module = spirv_module(compiled_light(file, text).words);

@@ -9,8 +9,9 @@ using Kind = SpirvType::Kind;
 /// Names and types of the scalars of a type, below a prefix.
 class ScalarNames {
  public:
-  ScalarNames(const SpirvModule& module, Rate rate, std::vector<ProgramInput>& out)
-      : m_(module), rate_(rate), out_(out) {}
+  ScalarNames(const SpirvModule& module, Rate rate, std::vector<ProgramInput>& out,
+              std::vector<std::string>* declared = nullptr)
+      : m_(module), rate_(rate), out_(out), declared_(declared) {}
 
   void add(uint32_t id, const std::string& prefix) {  // as deep as kMostDepth
     const SpirvType& type = m_.type(id);
@@ -23,9 +24,12 @@ class ScalarNames {
         for (uint32_t i = 0; i < type.count; ++i) add(type.element, prefix + "[" + std::to_string(i) + "]");
         return;
       case Kind::vector:
-        for (uint32_t i = 0; i < type.count; ++i) add(type.element, prefix + "." + "xyzw"[i]);
+        declare(prefix, m_.type(type.element).kind, type.count);
+        for (uint32_t i = 0; i < type.count; ++i)
+          out_.push_back({prefix + "." + "xyzw"[i], scalar(m_.type(type.element).kind), rate_});
         return;
       default:
+        declare(prefix, type.kind, 1);
         out_.push_back({prefix, scalar(type.kind), rate_});
     }
   }
@@ -38,6 +42,15 @@ class ScalarNames {
   }
 
  private:
+  /// Notes a scalar or a vector of the block of parameters by its name there.
+  void declare(const std::string& prefix, Kind kind, uint32_t count) {
+    if (declared_ == nullptr) return;
+    const std::string letter = kind == Kind::i32 ? "i" : kind == Kind::u32 ? "u" : "";
+    const char* const alone = kind == Kind::i32 ? "int" : kind == Kind::u32 ? "uint" : "float";
+    const std::string type = count == 1 ? alone : letter + "vec" + std::to_string(count);
+    declared_->push_back(type + ' ' + prefix.substr(prefix.find('.') + 1));
+  }
+
   static Type scalar(Kind kind) {
     if (kind == Kind::boolean) refuse_damage("a boolean in a block");
     return kind == Kind::f32 ? Type::f32 : kind == Kind::i32 ? Type::i32 : Type::u32;
@@ -46,6 +59,7 @@ class ScalarNames {
   const SpirvModule& m_;
   const Rate rate_;
   std::vector<ProgramInput>& out_;
+  std::vector<std::string>* const declared_;
 };
 
 struct Block {
@@ -75,7 +89,7 @@ void Lowering::declare_input(Variable& variable, uint32_t block) {
   for (const Variable& other : variables_)
     if (!other.input.empty() && other.input[0].name.starts_with("parameters."))
       refuse("has two blocks of parameters", "put them into one");
-  ScalarNames(m_, Rate::constant, variable.input).add(block, "parameters");
+  ScalarNames(m_, Rate::constant, variable.input, &b_.program().parameters).add(block, "parameters");
 }
 
 void Lowering::variable(const SpirvInstruction& one, bool is_global) {

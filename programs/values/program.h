@@ -58,6 +58,9 @@ struct Program {
   std::string sha256;                                                           ///< of the SPIR-V
   bool defines_reaches = false, defines_start = false, defines_finish = false;  ///< false: the default
   std::vector<ProgramInput> inputs;
+  /// What the block of parameters holds, read or not, an entry for each column of a matrix and each element of an array:
+  /// "vec3 tint", "vec3 rotation[0]", "int lamps[2]". GLSL's bool is a uint there.
+  std::vector<std::string> parameters;
   std::vector<ProgramNode> nodes;
   std::array<NodeId, kOutputCount> output{};
 };

@@ -55,9 +55,8 @@ LightProgram light_program_of(const py::object& shader, const py::object& parame
   for (const auto& [key, value] : parameters.cast<py::dict>()) {
     ProgramParameter parameter{py::str(key), {}};
     const auto given = py::reinterpret_borrow<py::object>(value);
-    const py::object list = py::isinstance<py::float_>(given) || py::isinstance<py::int_>(given)
-                                ? py::object(py::make_tuple(given))
-                                : given;
+    const bool is_number = PyNumber_Check(given.ptr()) != 0 && PySequence_Check(given.ptr()) == 0;
+    const py::object list = is_number ? py::object(py::make_tuple(given)) : given;
     const size_t count = py::len(list);
     if (count < 1 || count > 4)
       throw bad_argument("light_parameters", "'" + parameter.name + "' has " + std::to_string(count) + " numbers",

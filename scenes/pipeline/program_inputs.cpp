@@ -1,6 +1,8 @@
 #include "scenes/pipeline/program_inputs.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 
 #include "core/error.h"
 #include "scenes/json/json_value.h"
@@ -18,14 +20,70 @@ std::optional<std::string_view> behind(const ProgramParameter& given, std::strin
   return rest;
 }
 
+constexpr const char* kOption = "--light-parameter";
+
+std::string text_of(float value) {
+  char text[32];
+  return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
+}
+
+std::string text_of(const ProgramParameter& given) {
+  std::string text;
+  for (const float value : given.value) text += (text.empty() ? "" : ",") + text_of(value);
+  return text;
+}
+
+/// Those whose names begin with `start`; all where it is empty.
+std::string listed(std::span<const std::string> declared, const std::string& start) {
+  constexpr size_t kMost = 8;
+  std::string text;
+  size_t count = 0;
+  for (const std::string& one : declared) {
+    if (!parameter_type(one).name.starts_with(start) || ++count > kMost) continue;
+    text += (text.empty() ? "" : ", ") + one;
+  }
+  return text + (count > kMost ? ", ..." : "");
+}
+
+/// What a type asks of the value; empty where the value has it.
+std::string wanted(const ParameterType& type, const ProgramParameter& given) {
+  if (given.value.size() != type.components)
+    return type.components == 1 ? "give one number" : "give " + std::to_string(type.components) + " numbers";
+  const auto is_finite = [](float x) { return std::isfinite(x); };
+  if (!std::all_of(given.value.begin(), given.value.end(), is_finite)) return "give finite numbers";
+  if (type.is_float) return {};
+  const float most = kLargestWholeParameter, least = type.is_signed ? -most : 0.0f;
+  const auto is_whole = [&](float x) { return x == std::floor(x) && x >= least && x <= most; };
+  if (std::all_of(given.value.begin(), given.value.end(), is_whole)) return {};
+  return "give whole numbers from " + std::to_string(int(least)) + " to " + std::to_string(int(most));
+}
+
+void check_type(const std::string& file, const ProgramParameter& given, std::span<const std::string> declared) {
+  const auto known = std::find_if(declared.begin(), declared.end(),
+                                  [&](const std::string& one) { return parameter_type(one).name == given.name; });
+  if (known == declared.end()) {
+    const std::string parts = listed(declared, given.name + '[') + listed(declared, given.name + '.');
+    if (!parts.empty())
+      throw Error(ErrorKind::usage, kOption, "'" + given.name + "' of " + file + " is given by its parts", parts);
+    throw Error(ErrorKind::usage, kOption, file + " reads no parameter '" + given.name + "'",
+                declared.empty() ? "a member of its block Parameters" : "one of: " + listed(declared, ""));
+  }
+  const ParameterType type = parameter_type(*known);
+  const std::string remedy = wanted(type, given);
+  if (remedy.empty()) return;
+  const char* const article = type.type[0] == 'i' ? "an " : "a ";
+  throw Error(ErrorKind::usage, kOption,
+              "'" + given.name + "' is " + article + type.type + ", and " + text_of(given) + " is given", remedy);
+}
+
 void check_ranges(const LightProgram& program) {
   if (program.parameters.empty()) return;
   const std::vector<DeclaredParameter> declared = declared_parameters(program.text);
   for (const ProgramParameter& given : program.parameters)
-    if (const ParameterRange* const range = range_of(declared, given.name))
+    if (const ParameterRange* const range = range_of(declared, given.name.substr(0, given.name.find('['))))
       for (const float value : given.value)
         if (!range->holds(value))
-          throw Error(ErrorKind::usage, "--light-parameter",
+          throw Error(ErrorKind::usage, kOption,
                       "'" + given.name + "' is " + json::number_text(double(value)) + ", which " + program.file +
                           " is not made for",
                       range->text());
@@ -115,21 +173,33 @@ std::optional<float> parameter_value(std::string_view input, const LightProgram&
   return std::nullopt;
 }
 
-void check_values(const LightProgram& program, std::span<const std::string> inputs) {
-  check_ranges(program);
+ParameterType parameter_type(const std::string& declaration) {
+  const size_t space = declaration.find(' ');
+  ParameterType out{declaration.substr(0, space), declaration.substr(space + 1)};
+  const char last = out.type.back();
+  if (last >= '2' && last <= '4') out.components = size_t(last - '0');
+  out.is_float = out.type[0] == 'f' || out.type[0] == 'v';
+  out.is_signed = out.type[0] != 'u';
+  return out;
+}
+
+void check_given(const LightProgram& program, std::span<const std::string> inputs,
+                 std::span<const std::string> declared) {
   for (const ProgramParameter& given : program.parameters) {
     const auto is_same = [&](const ProgramParameter& p) { return p.name == given.name; };
     if (std::count_if(program.parameters.begin(), program.parameters.end(), is_same) > 1)
-      throw Error(ErrorKind::usage, "--light-parameter", "'" + given.name + "' is given twice", "give it once");
-    const bool is_scalar = std::find(inputs.begin(), inputs.end(), "parameters." + given.name) != inputs.end();
-    if (is_scalar && given.value.size() > 1)
-      throw Error(ErrorKind::usage, "--light-parameter",
-                  "'" + given.name + "' is one number, not " + std::to_string(given.value.size()), "give one number");
-  }
-  for (const ProgramParameter& given : program.parameters)
+      throw Error(ErrorKind::usage, kOption, "'" + given.name + "' is given twice", "give it once");
+    check_type(program.file, given, declared);
     if (std::none_of(inputs.begin(), inputs.end(), [&](const std::string& input) { return behind(given, input); }))
-      throw Error(ErrorKind::usage, "--light-parameter", program.file + " reads no parameter '" + given.name + "'",
-                  "a member of its block Parameters");
+      throw Error(ErrorKind::usage, kOption,
+                  program.file + " reads no parameter '" + given.name + "', which it declares", "leave it out");
+  }
+  check_ranges(program);
+}
+
+void check_values(const LightProgram& program, std::span<const std::string> inputs,
+                  std::span<const std::string> declared) {
+  check_given(program, inputs, declared);
   for (const std::string& input : inputs)
     if (input.starts_with(kParameterBlock) && !parameter_value(input, program))
       throw Error(ErrorKind::usage, program.file, "nothing gives " + input, "--light-parameter NAME=VALUE");

@@ -57,8 +57,25 @@ void check_camera(const Camera& camera, const std::string& file, std::span<const
 /// The value of an input of the block `Parameters`; nothing where none is given.
 std::optional<float> parameter_value(std::string_view input, const LightProgram& program);
 
-/// Error(usage) where an input has no value, as a parameter that is not given, a parameter is no input, or a value is
-/// outside the range that the program's text states.
-void check_values(const LightProgram& program, std::span<const std::string> inputs);
+/// A number or a vector of the block of parameters, of its declaration "ivec2 size" or "float weight[3]".
+struct ParameterType {
+  std::string type, name;
+  size_t components = 1;
+  bool is_float = true, is_signed = true;
+};
+ParameterType parameter_type(const std::string& declaration);
+
+/// Whole numbers are kept as floats, which hold each one up to this and round those beyond it.
+inline constexpr float kLargestWholeParameter = 16777215.0f;
+
+/// Error(usage) where a parameter is no input, or a value is not one of its type or outside the range that the
+/// program's text states. `declared`: what the block of parameters holds, "vec3 tint", each column of a matrix and each
+/// element of an array by its own name.
+void check_given(const LightProgram& program, std::span<const std::string> inputs,
+                 std::span<const std::string> declared);
+
+/// The same, and Error(usage) where an input has no value, as a parameter that is not given.
+void check_values(const LightProgram& program, std::span<const std::string> inputs,
+                  std::span<const std::string> declared);
 
 }  // namespace trueshade

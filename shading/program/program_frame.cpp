@@ -139,7 +139,7 @@ ProgramFrame::ProgramFrame(const Scene& scene, const Pipeline& pipeline, Unlit u
 void ProgramFrame::set_constants(const Scene& scene, const Pipeline& pipeline) {
   const programs::Program& program = executable_->program;
   const programs::Stage& stage = executable_->at(Rate::constant);
-  check_values(pipeline.light_program, input_names(*executable_));
+  check_values(pipeline.light_program, input_names(*executable_), program.parameters);
   check_camera(scene.camera, program.name, input_names(*executable_));
   for (size_t i = 0; i < stage.inputs.size(); ++i) {
     const ProgramInput& input = program.inputs[stage.inputs[i]];

@@ -205,12 +205,60 @@ TEST_CASE("A parameter that is given twice, or with too many numbers, is refused
                                  "gain.glsl", "--light-parameter", "gain=1,2", "-o",  "g.png"};
   const Outcome wide = run(given);
   CHECK(wide.exit_code == 2);
-  CHECK(has(wide.err, "'gain' is one number, not 2"));
+  CHECK(has(wide.err, "'gain' is a float, and 1,2 is given (give one number)"));
   given[7] = "gain=1";
   given.insert(given.end(), {"--light-parameter", "gain=2"});
   const Outcome twice = run(given);
   CHECK(twice.exit_code == 2);
   CHECK(has(twice.err, "'gain' is given twice"));
+}
+
+TEST_CASE("Parameters are held to their types, from options and from a pipeline's file") {
+  write("typed.glsl",
+        "struct Lens { float near, far; };\n"
+        "layout(std140) uniform Parameters { int count; uint seed; bool on; mat2 turn; float weight[2]; Lens lens; };\n"
+        "vec3 light(Surface s, Light l, View v) {\n"
+        "  vec2 t = turn * s.albedo.rg;\n"
+        "  return on ? vec3(t, weight[0] + weight[1] * lens.far) * float(count + int(seed)) : vec3(0);\n}\n");
+  const std::vector<std::pair<std::string, std::string>> right{
+      {"count", "-2"},    {"seed", "3"},         {"on", "1"},        {"turn[0]", "1,0"},
+      {"turn[1]", "0,1"}, {"weight[0]", "0.25"}, {"weight[1]", "2"}, {"lens.far", "0.5"}};
+  const auto drawn = [&](const std::string& name, const std::string& value, bool by_file) {
+    std::vector<std::string> words{"render", "builtin:cornell", "--size",    "16x12",
+                                   "--hash", "--light-shader",  "typed.glsl"};
+    std::string json;
+    for (const auto& [own, number] : right) {
+      const std::string given = own == name ? value : number;
+      if (!by_file) words.insert(words.end(), {"--light-parameter", own + "=" + given});
+      json += (json.empty() ? "" : ",") + (R"({"name":")" + own + R"(","value":[)" + given + "]}");
+    }
+    write("typed.json", R"({"light_program":{"file":"typed.glsl","parameters":[)" + json + "]}}");
+    if (by_file) words.insert(words.end(), {"--pipeline", "typed.json"});
+    return run(words);
+  };
+  const Outcome by_options = drawn("", "", false), by_file = drawn("", "", true);
+  INFO(by_options.err << by_file.err);
+  CHECK(by_options.exit_code == 0);
+  CHECK(by_file.exit_code == 0);
+  CHECK(by_options.out == by_file.out);
+  for (const bool file : {false, true}) {
+    const auto refused = [&](const std::string& name, const std::string& value, const std::string& type) {
+      const Outcome outcome = drawn(name, value, file);
+      INFO(outcome.err);
+      CHECK(outcome.exit_code == 2);
+      CHECK(has(outcome.err, "'" + name + "' is a" + type + ", and " + value + " is given"));
+    };
+    refused("count", "1.5", "n int");
+    refused("seed", "-1", " uint");
+    refused("on", "0.5", " uint");
+    refused("turn[1]", "1,2,3", " vec2");
+    refused("weight[1]", "1,2", " float");
+    refused("lens.far", "1,2,3,4", " float");
+  }
+  const Outcome whole =
+      run({"render", "builtin:cornell", "--hash", "--light-shader", "typed.glsl", "--light-parameter", "turn=1,0,0,1"});
+  CHECK(whole.exit_code == 2);
+  CHECK(has(whole.err, "'turn' of typed.glsl is given by its parts (vec2 turn[0], vec2 turn[1])"));
 }
 
 TEST_CASE("A verdict says of how many pixels nothing can be said") {

@@ -177,6 +177,25 @@ def test_a_light_program_is_drawn_judged_and_explained(command, tmp_path):
     assert shipped.hash != frame.hash
 
 
+def test_a_value_of_another_type_than_its_parameter_is_refused(tmp_path):
+    shader = tmp_path / "typed.glsl"
+    shader.write_text(
+        "layout(std140) uniform Parameters { float gain; int count; uint seed; vec2 pair; };\n"
+        "vec3 light(Surface s, Light l, View v) { return vec3(gain, count + int(seed), pair.x + pair.y); }\n"
+    )
+    scene = trueshade.load_scene("builtin:cornell")
+    right = {"gain": 0.5, "count": -1, "seed": 2, "pair": (1, 2)}
+    wrong = {"gain": ((1, 2), "a float"), "count": (0.5, "an int"), "seed": (-1, "a uint"), "pair": (3, "a vec2")}
+
+    def draw(**changed):
+        return trueshade.render(scene, trueshade.Pipeline(size=SIZE, light_shader=shader, light_parameters=right | changed))
+
+    assert draw().hash
+    for name, (value, kind) in wrong.items():
+        with pytest.raises((ValueError, trueshade.Error), match=f"'{name}' is {kind}, and .* is given"):
+            draw(**{name: value})
+
+
 def test_a_wrong_light_program_is_said_with_its_place(tmp_path):
     shader = tmp_path / "wrong.glsl"
     shader.write_text("vec3 light(Surface s, Light l, View v) { return s.nothing; }\n")

@@ -53,10 +53,82 @@ TEST_CASE("A value outside the range of a model that ships is refused, with the 
   LightProgram toon = shipped_program("toon");
   const std::vector<std::string> inputs{"parameters.steps"};
   toon.parameters = {{"steps", {1.0f}}};
-  CHECK_NOTHROW(check_values(toon, inputs));
+  const std::vector<std::string> declared{"float steps"};
+  CHECK_NOTHROW(check_values(toon, inputs, declared));
   toon.parameters = {{"steps", {0.5f}}};
-  CHECK_THROWS_WITH(check_values(toon, inputs),
+  CHECK_THROWS_WITH(check_values(toon, inputs, declared),
                     "--light-parameter: 'steps' is 0.5, which toon is not made for (from 1)");
+}
+
+TEST_CASE("A value that is not one of its parameter's type is refused, with the type and what was given") {
+  const std::vector<std::string> declared{"float gain", "int count", "uint seed", "vec3 tint",
+                                          "ivec2 size", "vec2 m[0]", "vec2 m[1]", "float lens.far"};
+  std::vector<std::string> inputs;
+  for (const std::string& one : declared) {
+    const ParameterType type = parameter_type(one);
+    const std::string whole = "parameters." + type.name;
+    for (size_t k = 0; k < type.components; ++k)
+      inputs.push_back(type.components == 1 ? whole : whole + '.' + "xyzw"[k]);
+  }
+  const auto said = [&](const std::string& name, std::vector<float> value) -> std::string {
+    const LightProgram program{"p.glsl", {}, {}, {{name, std::move(value)}}};
+    try {
+      check_given(program, inputs, declared);
+    } catch (const Error& error) {
+      CHECK(error.kind() == ErrorKind::usage);
+      return error.what();
+    }
+    return "taken";
+  };
+  constexpr float kInfinity = std::numeric_limits<float>::infinity(), kNan = std::numeric_limits<float>::quiet_NaN();
+  const struct {
+    const char* name;
+    std::vector<float> value;
+    const char* said;
+  } rows[] = {
+      {"gain", {2.5f}, "taken"},
+      {"gain", {-3e38f}, "taken"},
+      {"gain", {1, 2}, "'gain' is a float, and 1,2 is given (give one number)"},
+      {"gain", {kInfinity}, "'gain' is a float, and inf is given (give finite numbers)"},
+      {"gain", {kNan}, "'gain' is a float, and nan is given (give finite numbers)"},
+      {"count", {-7}, "taken"},
+      {"count", {16777215}, "taken"},
+      {"count", {2.5f}, "'count' is an int, and 2.5 is given (give whole numbers from -16777215 to 16777215)"},
+      {"count", {16777216}, "'count' is an int, and 16777216 is given (give whole numbers from -16777215"},
+      {"count", {1e10f}, "'count' is an int, and 1e+10 is given (give whole numbers"},
+      {"count", {1, 1}, "'count' is an int, and 1,1 is given (give one number)"},
+      {"seed", {0}, "taken"},
+      {"seed", {-1}, "'seed' is a uint, and -1 is given (give whole numbers from 0 to 16777215)"},
+      {"seed", {0.5f}, "'seed' is a uint, and 0.5 is given"},
+      {"tint", {1, 0.5f, 0}, "taken"},
+      {"tint", {1}, "'tint' is a vec3, and 1 is given (give 3 numbers)"},
+      {"tint", {1, 1, 1, 1}, "'tint' is a vec3, and 1,1,1,1 is given (give 3 numbers)"},
+      {"tint", {}, "'tint' is a vec3"},
+      {"size", {3, 4}, "taken"},
+      {"size", {3, 4.5f}, "'size' is an ivec2, and 3,4.5 is given (give whole numbers"},
+      {"m[1]", {0, 1}, "taken"},
+      {"m[1]", {0}, "'m[1]' is a vec2, and 0 is given (give 2 numbers)"},
+      {"m", {1, 0, 0, 1}, "'m' of p.glsl is given by its parts (vec2 m[0], vec2 m[1])"},
+      {"m[2]", {1, 0}, "p.glsl reads no parameter 'm[2]' (one of: float gain, int count"},
+      {"lens.far", {9}, "taken"},
+      {"lens", {9}, "'lens' of p.glsl is given by its parts (float lens.far)"},
+      {"tint.x", {1}, "p.glsl reads no parameter 'tint.x'"},
+      {"gai", {1}, "p.glsl reads no parameter 'gai'"},
+  };
+  for (const auto& row : rows) {
+    INFO(row.name);
+    const bool is_taken = row.said == std::string("taken");
+    CHECK_THAT(said(row.name, row.value),
+               Catch::StartsWith(is_taken ? row.said : "--light-parameter: " + std::string(row.said)));
+  }
+}
+
+TEST_CASE("A range holds for each element of an array") {
+  LightProgram program{"p.glsl", "uniform Parameters {\n  float weight[2];  // 0 to 1\n};\n", {}, {{"weight[1]", {2}}}};
+  const std::vector<std::string> inputs{"parameters.weight[0]", "parameters.weight[1]"};
+  const std::vector<std::string> declared{"float weight[0]", "float weight[1]"};
+  CHECK_THROWS_WITH(check_given(program, inputs, declared),
+                    Catch::Contains("'weight[1]' is 2") && Catch::Contains("0 to 1"));
 }
 
 TEST_CASE("The ends of a range are in it, as floats, and a block in a comment states none") {

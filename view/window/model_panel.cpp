@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "scenes/light_models/light_models.h"
+#include "scenes/pipeline/program_inputs.h"
 #include "view/window/panels.h"
 
 namespace trueshade::viewer {
@@ -41,11 +42,11 @@ void draw_choice(const PanelContext& context) {
 
 /// Whether a hand has changed the numbers.
 bool draw_numbers(const ModelParameter& parameter, std::vector<float>& value) {
-  constexpr float kFarthest = 1e18f;
+  const float farthest = parameter.is_float ? 1e18f : kLargestWholeParameter;
   const int count = int(value.size());
   const auto& range = parameter.range;
-  const float least = range ? float(range->least) : -kFarthest;
-  const float most = range && std::isfinite(range->most) ? float(range->most) : kFarthest;
+  const float least = range ? float(range->least) : parameter.is_signed ? -farthest : 0.0f;
+  const float most = range && std::isfinite(range->most) ? float(range->most) : farthest;
   const char* const format = parameter.is_float ? "%.4g" : "%.0f";
   if (range && std::isfinite(range->most))
     return ImGui::SliderScalarN("##value", ImGuiDataType_Float, value.data(), count, &least, &most, format,
