@@ -237,6 +237,19 @@ class Window(unittest.TestCase):
         self.assertIn("none.glsl:", run("view", "builtin:cornell", "--light-shader", "none.glsl", code=3).stderr)
         run("view", "builtin:cornell", "--light-parameter", "gain=1", code=2)
 
+    def test_parameters_that_are_none_end_before_the_picture(self):
+        given = ["view", "builtin:cornell", "--light-shader", "toon", "--light-parameter"]
+        self.assertIn("'steps' is a float, and 1,2 is given", run(*given, "steps=1,2", code=2).stderr)
+        self.assertIn("reads no parameter 'step'", run(*given, "step=1", code=2).stderr)
+
+    def test_the_program_of_the_window_prints_the_help_of_the_command(self):
+        program = os.path.join(os.path.dirname(os.path.realpath(TRUESHADE)), "trueshade-view")
+        expected = run("view", "--help").stdout
+        self.assertIn("--light-shader", expected)
+        for words in (["--help"], ["-h"], ["help"], ["view", "--help"]):
+            done = subprocess.run([program, *words], capture_output=True, text=True, env=environment())
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (0, expected, ""))
+
     def test_garbage(self):
         for text, reason in (("fly 3\n", "line 1: no line begins with 'fly'"), ("still\nkey w\n", "line 2: it ends too soon"),
                              ("\x00\x01\x7f\n", "line 1"), ("preset best\n", "there is no preset 'best'")):

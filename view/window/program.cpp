@@ -5,7 +5,9 @@
 #include <utility>
 #include <variant>
 
+#include "cli/command_tables.h"
 #include "cli/commands.h"
+#include "cli/help_text.h"
 #include "cli/options.h"
 #include "cli/preparation.h"
 #include "core/error.h"
@@ -69,6 +71,10 @@ void run_window(const ViewOptions& options) {
 std::vector<std::string> fault_names() { return {}; }
 
 int execute(const Command& command) {
+  if (std::holds_alternative<PrintText>(command)) {  // whichever help was asked for, it is this command's
+    const CommandTables tables;
+    return print(help_of_command(*tables.named("view"))), 0;
+  }
   const auto* options = std::get_if<ViewOptions>(&command);
   if (options == nullptr)
     throw Error(ErrorKind::usage, "trueshade-view", "it has the command view alone", "use trueshade");
