@@ -120,6 +120,7 @@ Account account_of(const ExplainedFrame& frame, const PixelHistory& history, Det
   out.add("window", std::array{int64_t(history.pixel.x), int64_t(history.pixel.y)},
           "the same in OpenGL's window, y up");
   add_summary(frame, history, out);
+  add_nonfinite(frame, history, out);
   out.parts.push_back(triangles_account(frame, history, Surfaces::opaque, detail));
   if (frame.transparency != TransparencyMode::none)
     out.parts.push_back(triangles_account(frame, history, Surfaces::transparent, detail));

@@ -12,17 +12,6 @@ namespace {
 
 constexpr size_t kMostSteps = 60;
 
-/// A line of the program's text without its indent; empty for SPIR-V, and where there is none of that number.
-std::string source_line(const LightProgram& program, uint32_t line) {
-  std::string_view rest = program.text;
-  if (is_spirv(rest)) return {};
-  for (uint32_t i = 1; i < line && !rest.empty(); ++i)
-    rest.remove_prefix(std::min(rest.size(), std::min(rest.find('\n'), rest.size() - 1) + 1));
-  std::string_view text = rest.substr(0, rest.find_first_of("\r\n"));
-  text.remove_prefix(std::min(text.size(), text.find_first_not_of(" \t")));
-  return std::string(text);
-}
-
 std::string joined(const std::vector<AccountValue>& values) {
   std::string out;
   for (const AccountValue& value : values) out += (out.empty() ? "" : ", ") + value_text(value);
@@ -119,6 +108,16 @@ void add_lines(const ExplainedFrame& frame, const ProgramAtSurface& at, const No
 
 }  // namespace
 
+std::string source_line(const LightProgram& program, uint32_t line) {
+  std::string_view rest = program.text;
+  if (is_spirv(rest)) return {};
+  for (uint32_t i = 1; i < line && !rest.empty(); ++i)
+    rest.remove_prefix(std::min(rest.size(), std::min(rest.find('\n'), rest.size() - 1) + 1));
+  std::string_view text = rest.substr(0, rest.find_first_of("\r\n"));
+  text.remove_prefix(std::min(text.size(), text.find_first_not_of(" \t")));
+  return std::string(text);
+}
+
 void add_program(const ExplainedFrame& frame, const LightTotal& total, Detail detail, Account& to) {
   const ProgramAtSurface& at = *total.program;
   to.add("program", at.program().name, "SHA-256 of its SPIR-V: " + at.program().sha256);
@@ -147,7 +146,8 @@ void add_program_light(const ExplainedFrame& frame, const LightTotal& total, siz
     to.add("reaches", bits[program.program().output[programs::kReachesOutput]] != 0, "counted by light.count");
   if (lines == ProgramLines::left_out) return;
   add_lines(frame, program, bits, "light", programs::kLightOutput, 3, detail, to);
-  if (counts && detail == Detail::all) add_lines(frame, program, bits, "reaches", programs::kReachesOutput, 1, detail, to);
+  if (counts && detail == Detail::all)
+    add_lines(frame, program, bits, "reaches", programs::kReachesOutput, 1, detail, to);
 }
 
 void add_program_sum(const ExplainedFrame& frame, const LightTotal& total, Detail detail, Account& to) {

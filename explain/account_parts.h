@@ -35,6 +35,13 @@ void add_program_light(const ExplainedFrame& frame, const LightTotal& total, siz
                        Detail detail, Account& to);
 void add_program_sum(const ExplainedFrame& frame, const LightTotal& total, Detail detail, Account& to);
 
+/// A line of a program's text without its indent; empty for SPIR-V, and where there is none of that number.
+std::string source_line(const LightProgram& program, uint32_t line);
+
+/// Where the pixel's light first is NaN or infinite, and what is stored of it; nothing where all is finite
+/// (account_of_nonfinite.cpp).
+void add_nonfinite(const ExplainedFrame& frame, const PixelHistory& history, Account& to);
+
 /// GL's name of a depth function.
 std::string_view depth_func_name(DepthFunc func);
 

@@ -95,6 +95,72 @@ Words lit_by_program(const char* command) {
           "p.glsl", "--light-parameter", "gain=0.5", "--target", "rgba32f"};
 }
 
+TEST_CASE("explain says of a pixel that is no number where it became none, and what is stored") {
+  const ScratchFolder folder;
+  const struct {
+    const char *what, *text, *target, *strategy;
+    std::vector<const char*> said;
+  } rows[] = {
+      {"a root of a negative number",
+       "vec3 light(Surface s, Light l, View v) {\n  float bad = -1.0 - s.albedo.a;\n  float root = sqrt(bad);\n"
+       "  return vec3(0.5, root * 2.0, 0.25);\n}\n",
+       "rgba8",
+       "forward-loop",
+       {"not_finite  0.5, NaN, 0.25", "is light() of light 0; stored is 255, 0, 255, 255",
+        "first_line  3: float root = sqrt(bad);", "first_value  sqrt(-2) is NaN"}},
+      {"the same, light by light",
+       "vec3 light(Surface s, Light l, View v) {\n  return vec3(sqrt(-2.0 - 0.0 * s.albedo.a));\n}\n",
+       "rgba16f",
+       "deferred-volumes",
+       {"not_finite  NaN, NaN, NaN", "stored is nan, nan, nan", "first_line  2: return vec3(sqrt(",
+        "first_value  sqrt(-2) is NaN"}},
+      {"a quotient by 0 before the NaN",
+       "vec3 light(Surface s, Light l, View v) {\n  float z = s.albedo.a - 1.0;\n  float q = 2.0 / z;\n"
+       "  float w = q - q;\n  return vec3(w);\n}\n",
+       "rgba32f",
+       "deferred-loop",
+       {"not_finite  NaN, NaN, NaN", "first_line  3: float q = 2.0 / z;", "first_value  2 / 0 is inf"}},
+      {"an infinity that ends the sum",
+       "vec3 light(Surface s, Light l, View v) { return vec3(3e38); }\n",
+       "rgba32f",
+       "forward-loop",
+       {"not_finite  inf, inf, inf", "is the sum of the lights; stored is inf, inf, inf, 1"}},
+      {"what finish() makes of it",
+       "vec3 light(Surface s, Light l, View v) { return vec3(1); }\nvec4 finish(Surface s, View v, vec3 sum) {\n"
+       "  return vec4(log(-sum), 1);\n}\n",
+       "rgba32f",
+       "forward-loop",
+       {"is finish(); stored is nan, nan, nan, 1", "first_line  3: return vec4(log(-sum), 1);"}},
+      {"more than the format holds",
+       "vec3 light(Surface s, Light l, View v) { return vec3(1e5, 0, 0); }\n",
+       "rgba16f",
+       "forward-loop",
+       {"not_finite  inf, 0, 0, 1", "is the target after the sum of the lights; stored is inf, 0, 0, 1"}},
+      {"a choice that was not taken",
+       "vec3 light(Surface s, Light l, View v) {\n  float x = s.albedo.a < 9.0 ? 0.5 : sqrt(-1.0 - s.albedo.a);\n"
+       "  return vec3(x);\n}\n",
+       "rgba32f",
+       "forward-loop",
+       {}},
+      {"an infinity that does not come through",
+       "vec3 light(Surface s, Light l, View v) { return vec3(1.0 / (1.0 / (s.albedo.a - 1.0))); }\n",
+       "rgba32f",
+       "forward-loop",
+       {}},
+  };
+  for (const auto& row : rows) {
+    INFO(row.what);
+    write_bytes(folder.path("n.glsl"), row.text);
+    const Words words{"explain", "builtin:cornell", "--size",   "64x64",      "--pixel",    "30,40", "--light-shader",
+                      "n.glsl",  "--target",        row.target, "--strategy", row.strategy, "-q"};
+    const Outcome told = run_command(words, folder.path(""));
+    INFO(told.err << told.out.substr(0, 1500));
+    REQUIRE(told.exit_code == 0);
+    for (const char* const said : row.said) CHECK_THAT(told.out, Catch::Contains(said));
+    if (row.said.empty()) CHECK_THAT(told.out, !Catch::Contains("not_finite"));
+  }
+}
+
 TEST_CASE("explain tells each line of a light program that the strongest light comes from, and all lights with --all") {
   const ScratchFolder folder;
   write_bytes(folder.path("p.glsl"), kProgram);
