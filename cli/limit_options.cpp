@@ -23,7 +23,10 @@ constexpr LimitOption kOptions[] = {
     {"--max-texture-memory", bytes, &Limits::texture_bytes, "Bytes of all textures with their levels, decoded"},
     {"--max-buffer-memory", bytes, &Limits::buffer_bytes, "Bytes of a glTF file's buffers, unpacked"},
     {"--max-geometry-memory", bytes, &Limits::geometry_bytes, "Bytes of a glTF file's vertices and indices"},
-    {"--max-expansion", count, &Limits::expansion, "Bytes that a byte of a compressed file may become, beyond 64M"}};
+    {"--max-expansion", count, &Limits::expansion, "Bytes that a byte of a compressed file may become, beyond 64M"},
+    {"--max-program-nodes", count, &Limits::program_nodes, "Operations of a light program, its loops unrolled"},
+    {"--max-loop-trips", count, &Limits::loop_trips, "Trips of a loop of a light program"},
+    {"--max-program-time", seconds, &Limits::program_seconds, "Seconds that a light program may take to compile"}};
 
 struct Suffix {
   char letter;

@@ -4,15 +4,19 @@
 #include <span>
 #include <string>
 
+#include "programs/values/program_limits.h"
 #include "scenes/scene_limits.h"
 
 namespace trueshade {
 
 /// Limits that options set, and where scenes are kept that were read.
 struct Limits : SceneLimits {
-  uint64_t memory = 0;               ///< bytes; 0: as memory_cap() has it
-  uint64_t pixels = 0;               ///< of a picture that is drawn or read; 0: any
-  uint64_t seconds = 0;              ///< of the whole run; 0: any
+  uint64_t memory = 0;                                       ///< bytes; 0: as memory_cap() has it
+  uint64_t pixels = 0;                                       ///< of a picture that is drawn or read; 0: any
+  uint64_t seconds = 0;                                      ///< of the whole run; 0: any
+  uint64_t program_nodes = programs::ProgramLimits{}.nodes;  ///< of a light program
+  uint64_t loop_trips = programs::ProgramLimits{}.trips;
+  uint64_t program_seconds = programs::ProgramLimits{}.seconds;
   std::optional<std::string> cache;  ///< folder of cache files of scenes (scene_cache/)
 };
 

@@ -151,6 +151,12 @@ void end_after(uint64_t seconds) {
   setitimer(ITIMER_REAL, &once, nullptr);
 }
 
+void set_program_limits(const Limits& given) {
+  programs::ProgramLimits limits;
+  limits.nodes = given.program_nodes, limits.trips = given.loop_trips, limits.seconds = given.program_seconds;
+  programs::set_program_limits(limits);
+}
+
 void set_up(const Command& command) {
   std::visit(
       [](const auto& options) {
@@ -162,6 +168,7 @@ void set_up(const Command& command) {
         if constexpr (requires { options.limits; }) {
           if (options.limits.memory != 0) set_memory_cap(options.limits.memory);
           if (options.limits.pixels != 0) set_pixel_cap(options.limits.pixels);
+          set_program_limits(options.limits);
           if (options.limits.seconds != 0) end_after(options.limits.seconds);
           if (options.limits.cache) std::signal(SIGBUS, end_at_lost_bytes);
         }

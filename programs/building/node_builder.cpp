@@ -26,7 +26,7 @@ NodeId NodeBuilder::add(const ProgramNode& node) {
   if (!is_new) return place->second;
   if (program_.nodes.size() >= most_nodes_)
     throw Error(ErrorKind::limit, where_, "needs more than " + std::to_string(most_nodes_) + " operations on scalars",
-                "write shorter loops");
+                "write shorter loops, or raise --max-program-nodes");
   program_.nodes.push_back(node);
   return place->second;
 }

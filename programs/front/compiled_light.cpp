@@ -33,7 +33,8 @@ layout(std430, set = 0, binding = 4) buffer TsResult { vec3 light; uint reaches;
 /// The functions that a text defines with the right signature and result, told by the compiler.
 class Definitions {
  public:
-  Definitions(const std::string& file, const std::string& text) : module_(spirv_module(words_of(file, text))) {
+  Definitions(const std::string& file, const std::string& text, const ProgramLimits& limits)
+      : module_(spirv_module(words_of(file, text, limits))) {
     for (const auto& [id, function] : module_.functions) result_[module_.name(id)] = function.result_type;
   }
 
@@ -48,11 +49,12 @@ class Definitions {
 
  private:
   /// Of a text that goes with a driver's names, so that what one command draws each other takes.
-  static std::vector<uint32_t> words_of(const std::string& file, const std::string& text) {
+  static std::vector<uint32_t> words_of(const std::string& file, const std::string& text, const ProgramLimits& limits) {
     try {
-      return spirv_of_glsl(file, text, kSignatures, true, kDriverNames);
-    } catch (const Error&) {
-      spirv_of_glsl(file, text, kSignatures, true);  // what is wrong without them is said
+      return spirv_of_glsl(file, text, kSignatures, true, kDriverNames, limits);
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::limit) throw;
+      spirv_of_glsl(file, text, kSignatures, true, {}, limits);  // what is wrong without them is said
       throw;
     }
   }
@@ -86,7 +88,7 @@ CompiledLight compiled_light(const std::string& file, const std::string& text, c
     throw Error(ErrorKind::bad_input, file, "is no text", "give GLSL as .glsl, SPIR-V as .spv");
   CompiledLight out;
   try {
-    const Definitions definitions(file, text);
+    const Definitions definitions(file, text, limits);
     if (!definitions.has("light"))
       throw Error(ErrorKind::bad_input, file, "defines no `vec3 light(Surface s, Light l, View v)`", "define it");
     out.defines_reaches = definitions.has("reaches");
@@ -95,7 +97,7 @@ CompiledLight compiled_light(const std::string& file, const std::string& text, c
   } catch (const Refusal& refusal) {
     throw Error(refusal.kind, file, refusal.reason, refusal.remedy);
   }
-  out.words = spirv_of_glsl(file, text, main_text(out), false);
+  out.words = spirv_of_glsl(file, text, main_text(out), false, {}, limits);
   return out;
 }
 

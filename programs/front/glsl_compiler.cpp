@@ -9,12 +9,15 @@
 #include <cstdlib>
 #include <exception>
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <string_view>
 
 #include "core/error.h"
 #include "core/printable_text.h"
+#include "programs/front/bounded_process.h"
 #include "programs/front/light_interface_text.h"
+#include "programs/front/macro_growth.h"
 
 namespace trueshade::programs {
 namespace {
@@ -25,7 +28,12 @@ struct GlslangProcess {
   ~GlslangProcess() { glslang::FinalizeProcess(); }
   GlslangProcess(const GlslangProcess&) = delete;
   GlslangProcess& operator=(const GlslangProcess&) = delete;
+  mutable std::mutex mutex;  ///< glslang has locks, which nobody may hold where the process is copied
 };
+const GlslangProcess& glslang_process() {
+  static const GlslangProcess process;
+  return process;
+}
 
 /// What a line of glslang's log says: `ERROR: TEXT:LINE: message`, and of newer versions `ERROR: TEXT:LINE:COLUMN:
 /// ...`.
@@ -75,6 +83,18 @@ void refuse_byte_order_mark(const std::string& file, std::string_view text) {
       throw Error(ErrorKind::bad_input, file + ":1:1", "begins with a byte order mark", "save it as UTF-8 without one");
 }
 
+/// A few lines of macros are more than any memory holds, once they are expanded.
+void refuse_growth(const std::string& file, uint64_t tokens, const ProgramLimits& limits) {
+  if (tokens <= limits.tokens) return;
+  const std::string most = std::to_string(limits.tokens);
+  throw Error(
+      ErrorKind::limit, file,
+      tokens >= kEndlessGrowth
+          ? "has macros that grow beyond all bounds, where " + most + " tokens are the most"
+          : "has " + std::to_string(tokens) + " tokens once its macros are expanded, where " + most + " are the most",
+      "make it shorter");
+}
+
 /// `number`: of the user's text among those that were compiled.
 [[noreturn]] void throw_first(const std::string& file, const std::string& text, int number, const std::string& log) {
   for (size_t first = 0; first < log.size();) {
@@ -101,7 +121,6 @@ void refuse_byte_order_mark(const std::string& file, std::string_view text) {
 
 std::vector<uint32_t> compiled(const std::string& file, const std::string& text, const std::string& tail,
                                bool keep_uncalled, const std::string& before) {
-  static const GlslangProcess process;
   constexpr int kVersion = 460;
   auto messages = EShMessages(EShMsgSpvRules | EShMsgVulkanRules);
   if (keep_uncalled) messages = EShMessages(messages | EShMsgKeepUncalled);
@@ -132,10 +151,11 @@ std::vector<uint32_t> compiled(const std::string& file, const std::string& text,
   return words;
 }
 
-/// Runs a task on a thread whose stack holds what glslang's recursion needs for any text that is taken, some 1 kB an
-/// operator; on the caller's where the system gives no such thread.
-void on_deep_stack(const std::function<void()>& task) {
-  constexpr size_t kStack = size_t(768) << 20;  // of which the pages that are used count
+/// Runs a task on a thread whose stack holds a recursion so deep, with what a step of glslang's takes, some 1 kB, and
+/// as much thrice as room for checked builds; on the caller's where the system gives no such thread.
+void on_deep_stack(uint64_t depth, const std::function<void()>& task) {
+  constexpr size_t kLeast = size_t(8) << 20, kStep = 4096;  // the pages that are used count
+  const size_t stack = kLeast + kStep * size_t(depth);
   struct Call {
     const std::function<void()>& task;
     std::exception_ptr thrown;
@@ -153,7 +173,7 @@ void on_deep_stack(const std::function<void()>& task) {
   pthread_t thread;
   pthread_attr_init(&attributes);
   const bool started =
-      pthread_attr_setstacksize(&attributes, kStack) == 0 && pthread_create(&thread, &attributes, run, &call) == 0;
+      pthread_attr_setstacksize(&attributes, stack) == 0 && pthread_create(&thread, &attributes, run, &call) == 0;
   pthread_attr_destroy(&attributes);
   if (!started) return task();
   pthread_join(thread, nullptr);
@@ -163,10 +183,17 @@ void on_deep_stack(const std::function<void()>& task) {
 }  // namespace
 
 std::vector<uint32_t> spirv_of_glsl(const std::string& file, const std::string& text, const std::string& tail,
-                                    bool keep_uncalled, const std::string& before) {
+                                    bool keep_uncalled, const std::string& before, const ProgramLimits& limits) {
   refuse_byte_order_mark(file, text);
   std::vector<uint32_t> words;
-  on_deep_stack([&] { words = compiled(file, text, tail, keep_uncalled, before); });
+  uint64_t tokens = 0;
+  on_deep_stack(text.size() / 4, [&] { tokens = tokens_with_macros(text); });
+  refuse_growth(file, tokens, limits);
+  const GlslangProcess& process = glslang_process();
+  on_deep_stack(tokens, [&] {
+    const std::lock_guard lock(process.mutex);
+    words = in_bounded_process(file, limits, [&] { return compiled(file, text, tail, keep_uncalled, before); });
+  });
   return words;
 }
 

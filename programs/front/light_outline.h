@@ -24,9 +24,9 @@ struct FileVariable {
 /// What a shader of a driver must know of the light program whose text it contains.
 struct LightOutline {
   bool defines_reaches = false, defines_start = false, defines_finish = false;
-  std::vector<std::string> inputs;  ///< scalars that it reads, as Program has them
+  std::vector<std::string> inputs;    ///< scalars that it reads, as Program has them
   std::vector<std::string> declared;  ///< Program::parameters
-  std::string parameter_block;      ///< the name of the block of parameters; empty: there is none
+  std::string parameter_block;        ///< the name of the block of parameters; empty: there is none
   std::vector<ParameterPlace> parameters;
   uint32_t parameter_bytes = 0;  ///< of the block, a multiple of 16
   std::vector<FileVariable> variables;

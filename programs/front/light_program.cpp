@@ -73,7 +73,7 @@ Program program_of(const std::string& file, std::vector<uint32_t> words, const P
   program.sha256 = sha256;
   if (program.nodes.size() > limits.nodes)
     throw Error(ErrorKind::limit, file, "has " + std::to_string(program.nodes.size()) + " operations on scalars",
-                "make it shorter");
+                "make it shorter, or raise --max-program-nodes");
   set_rates(program);
   const std::string fault = fault_of_outputs(program);
   if (!fault.empty()) throw Error(ErrorKind::bad_input, file, fault, "see programs/light_interface.glsl");

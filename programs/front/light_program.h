@@ -1,21 +1,13 @@
 #pragma once
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "programs/values/program.h"
+#include "programs/values/program_limits.h"
 
 namespace trueshade::programs {
-
-/// How much a program may ask for; above it Error(limit).
-struct ProgramLimits {
-  size_t nodes = 100'000;     ///< of the program
-  size_t trips = 1'024;       ///< of a loop
-  size_t words = 1'000'000;   ///< of SPIR-V
-  size_t source = 1'000'000;  ///< bytes of GLSL
-};
 
 /// What glslang makes of a light program: the prelude programs/light_interface.glsl, the user's text and an entry point
 /// of ours, which has the defaults of what the text does not define.
@@ -26,14 +18,17 @@ struct CompiledLight {
 
 /// Error(bad_input) `FILE:LINE: reason`, or `FILE:LINE:COLUMN: reason` where the place in the line is known, with the
 /// lines of the user's text.
-CompiledLight compiled_light(const std::string& file, const std::string& text, const ProgramLimits& limits = {});
+CompiledLight compiled_light(const std::string& file, const std::string& text,
+                             const ProgramLimits& limits = program_limits());
 
 /// A program from GLSL.
-Program program_from_glsl(const std::string& file, const std::string& text, const ProgramLimits& limits = {});
+Program program_from_glsl(const std::string& file, const std::string& text,
+                          const ProgramLimits& limits = program_limits());
 
 /// A program from SPIR-V that has the blocks of compiled_light() by name, made by any compiler. Hostile words end in an
 /// Error.
-Program program_from_spirv(const std::string& file, std::vector<uint32_t> words, const ProgramLimits& limits = {});
+Program program_from_spirv(const std::string& file, std::vector<uint32_t> words,
+                           const ProgramLimits& limits = program_limits());
 
 /// The program of a text, GLSL or SPIR-V, compiled once a process. Error(usage) of an empty text.
 std::shared_ptr<const Program> kept_program(const std::string& file, const std::string& text);

@@ -5,16 +5,22 @@
 namespace trueshade::programs {
 namespace {
 
-constexpr size_t kMostSteps = 5'000'000, kMostCalls = 128, kMostOpenLoops = 64;
+constexpr size_t kStepsForEachNode = 50, kStepsBetweenLooks = 4096, kMostCalls = 128, kMostOpenLoops = 64;
 
 }  // namespace
 
 /// Counts what unrolling costs, so that loops in loops which make no nodes end too.
 void Lowering::work(size_t steps) {
   steps_ += steps;
-  if (steps_ > kMostSteps)
-    throw Refusal{"takes more than " + std::to_string(kMostSteps) + " steps to unroll", "write shorter loops",
-                  ErrorKind::limit};
+  const size_t most = limits_.nodes * kStepsForEachNode;
+  if (steps_ > most)
+    throw Refusal{"takes more than " + std::to_string(most) + " steps to unroll",
+                  "write shorter loops, or raise --max-program-nodes", ErrorKind::limit};
+  if (steps_ < next_look_) return;
+  next_look_ = steps_ + kStepsBetweenLooks;
+  if (std::chrono::steady_clock::now() - start_ > std::chrono::seconds(limits_.seconds))
+    throw Refusal{"takes more than " + std::to_string(limits_.seconds) + " s to unroll",
+                  "write shorter loops, or raise --max-program-time", ErrorKind::limit};
 }
 
 const BlockOrder& Lowering::order_of(const SpirvFunction& function) {
@@ -85,7 +91,7 @@ void Lowering::run_loop(size_t header) {
   for (size_t trips = 0; !frame().edges[header].empty(); ++trips) {
     if (trips > limits_.trips)
       throw Refusal{"has a loop that does not end for certain within " + std::to_string(limits_.trips) + " trips",
-                    "give it a constant bound", ErrorKind::limit};
+                    "give it a constant bound, or raise --max-loop-trips", ErrorKind::limit};
     NodeId mask = frame().edges[header][0].mask;
     for (const Edge& edge : frame().edges[header]) mask = b_.either(mask, edge.mask);
     if (go_on > header) frame().constructs.push_back({header, go_on, mask});  // where `continue` leads

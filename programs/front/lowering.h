@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <map>
 #include <optional>
 #include <span>
@@ -145,13 +146,14 @@ class Lowering {
   NodeBuilder& b_;
   Compositions c_;
   const ProgramLimits& limits_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   const bool main_is_ours_;  ///< its lines are none of the user's
   std::vector<Value> values_;
   std::unordered_map<uint32_t, Scalars> kept_;  ///< of ids that outlive their loop, with lanes that have left it
   std::vector<Variable> variables_;
   std::vector<Frame> frames_;
   std::map<uint32_t, BlockOrder> orders_;
-  size_t steps_ = 0, calls_ = 0;
+  size_t steps_ = 0, calls_ = 0, next_look_ = 0;  // the last: when the clock is looked at
   uint32_t line_ = 0;
 };
 

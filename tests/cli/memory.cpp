@@ -17,6 +17,7 @@
 #include "tests/cli/refused.h"
 #include "tests/cli/run_command.h"
 #include "tests/gzipped.h"
+#include "tests/programs/macro_bombs.h"
 #include "tests/scratch_folder.h"
 
 namespace trueshade {
@@ -375,6 +376,34 @@ TEST_CASE("a file that compresses worse than predicted is refused while it is ma
     set_memory_cap(0);
     CHECK(folder.entries().empty());
   }
+}
+
+TEST_CASE("light programs whose macros grow beyond all bounds are refused early") {
+  const ScratchFolder folder;
+  for (const auto& [name, text] : macro_bombs()) {
+    INFO(name);
+    folder.write("bomb.glsl", text);
+    check_refused_early({"render", "builtin:cornell", "--size", "8x8", "--hash", "--light-shader", "bomb.glsl"}, folder,
+                        4, "bomb.glsl: has macros that grow beyond all bounds");
+  }
+}
+
+TEST_CASE("limits of light programs have options that their errors name, and that let them pass") {
+  const ScratchFolder folder;
+  folder.write("loop.glsl",
+               "vec3 light(Surface s, Light l, View v) {\n  float a = s.albedo.r;\n"
+               "  for (int i = 0; i < 3000; ++i) a = a * a + 0.5;\n  return vec3(a);\n}\n");
+  const auto with = [&](const Arguments& more) {
+    Arguments all{"render", "builtin:cornell", "--size", "8x8", "--hash", "--light-shader", "loop.glsl"};
+    all.insert(all.end(), more.begin(), more.end());
+    return run_command(all, folder.path(""));
+  };
+  check_refused(with({}), 4, "--max-loop-trips");
+  check_refused(with({"--max-loop-trips", "2999"}), 4, "--max-loop-trips");
+  CHECK(with({"--max-loop-trips", "3000"}).exit_code == 0);
+  check_refused(with({"--max-loop-trips", "3000", "--max-program-nodes", "5000"}), 4, "--max-program-nodes");
+  for (const char* const command : {"view", "explain", "shade", "glsl", "list"})
+    CHECK_THAT(run_command({command, "--help"}).out, Catch::Contains("--max-loop-trips"));
 }
 
 TEST_CASE("every limit has an option, which is checked, and which its error names") {

@@ -1,10 +1,12 @@
-// Light programs from bytes that are SPIR-V: read, run, and bounded by the judge.
+// Light programs from bytes: SPIR-V, GLSL, or nodes at once. Each is read, interpreted, run as machine code, and
+// bounded by the judge.
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
 
 #include "judge/bounds/program_bounds.h"
+#include "programs/building/node_builder.h"
 #include "programs/front/light_program.h"
 #include "programs/run/fast/machine_stages.h"
 #include "tests/fuzz/promises.h"
@@ -15,7 +17,8 @@ namespace trueshade::fuzz {
 
 namespace {
 
-constexpr programs::ProgramLimits kSmall{3000, 64, 30'000, 100'000};
+/// glslang in this process, which is watched.
+constexpr programs::ProgramLimits kSmall{3000, 64, 30'000, 100'000, 10'000, 20, 0};
 
 /// The surface and the light that every program sees, by the names of their fields; other fields are 0.
 struct Given {
@@ -123,6 +126,90 @@ void run_light_spv(Bytes bytes) {
     if (!bytes.empty()) std::memcpy(words.data(), bytes.data(), bytes.size());
     check_bounds(programs::program_from_spirv("s.spv", std::move(words), kSmall));
   });
+}
+
+void run_light_glsl(Bytes bytes) {
+  read([&] { check_bounds(programs::program_from_glsl("s.glsl", std::string(text_of(bytes)), kSmall)); });
+}
+
+namespace {
+
+/// Nodes that bytes say: an operation, then how far back its operands are among the nodes of their types.
+class NodesOfBytes {
+ public:
+  explicit NodesOfBytes(Bytes bytes) : rest_(bytes), builder_("nodes", 4 * kMostNodes) {
+    for (const Given& g : kGiven) {
+      const auto rate =
+          std::string_view(g.name).starts_with("light.") ? programs::Rate::light : programs::Rate::surface;
+      add(builder_.input(g.name, programs::Type::f32, rate));
+    }
+    add(builder_.integer(1)), add(builder_.truth(true));
+    for (size_t count = 0; !rest_.empty() && count < kMostNodes; ++count) add(next_node());
+  }
+
+  programs::Program program() {
+    programs::Program& out = builder_.program();
+    const std::vector<programs::NodeId>& numbers = of_type_[size_t(programs::Type::f32)];
+    for (size_t k = 0; k < 3; ++k) {
+      out.output[programs::kLightOutput + k] = numbers[numbers.size() - 1 - k];
+      out.output[programs::kStartOutput + k] = builder_.number(0.0f);
+      out.output[programs::kFinishOutput + k] =
+          builder_.input(std::string("sum.") + "xyz"[k], programs::Type::f32, programs::Rate::sum);
+    }
+    out.output[programs::kReachesOutput] = builder_.word(1);
+    out.output[programs::kFinishOutput + 3] = builder_.number(1.0f);
+    programs::Program made = programs::without_dead_nodes(out);
+    programs::set_rates(made);
+    promise(programs::fault_of_outputs(made).empty(), "light() of nodes reads no sum");
+    return made;
+  }
+
+ private:
+  static constexpr size_t kMostNodes = 400;
+
+  uint8_t byte() {
+    if (rest_.empty()) return 0;
+    const uint8_t first = rest_[0];
+    rest_ = rest_.subspan(1);
+    return first;
+  }
+  void add(programs::NodeId id) {
+    programs::Type type = builder_.node(id).type;
+    if (type == programs::Type::u32) type = programs::Type::i32;  // one is as good as the other
+    of_type_[size_t(type)].push_back(id);
+  }
+  programs::NodeId one_of(programs::Type type) {
+    if (type == programs::Type::u32) type = programs::Type::i32;
+    const std::vector<programs::NodeId>& all = of_type_[size_t(type)];
+    return all[all.size() - 1 - byte() % all.size()];
+  }
+  programs::NodeId next_node() {
+    const auto op = programs::Op(byte() % programs::kOpCount);
+    if (op == programs::Op::constant || op == programs::Op::input) {
+      uint32_t bits = 0;
+      for (int k = 0; k < 4; ++k) bits = bits << 8 | byte();
+      return builder_.constant(op == programs::Op::constant ? programs::Type::f32 : programs::Type::i32, bits);
+    }
+    if (op == programs::Op::select) {
+      const auto type = programs::Type(byte() % 2);
+      const programs::NodeId condition = one_of(programs::Type::boolean), a = one_of(type);
+      return builder_.select(condition, a, one_of(type));
+    }
+    const programs::OpInfo& of = programs::info(op);
+    programs::NodeId operand[3] = {programs::kNoNode, programs::kNoNode, programs::kNoNode};
+    for (int k = 0; k < of.operands; ++k) operand[k] = one_of(of.operand[k]);
+    return builder_.make(op, operand[0], operand[1], operand[2]);
+  }
+
+  Bytes rest_;
+  programs::NodeBuilder builder_;
+  std::vector<programs::NodeId> of_type_[4];
+};
+
+}  // namespace
+
+void run_light_nodes(Bytes bytes) {
+  read([&] { check_bounds(NodesOfBytes(bytes).program()); });
 }
 
 }  // namespace trueshade::fuzz

@@ -47,6 +47,8 @@ void run_capture_map(Bytes bytes);
 
 /// Of light programs.
 void run_light_spv(Bytes bytes);
+void run_light_glsl(Bytes bytes);
+void run_light_nodes(Bytes bytes);
 
 /// Targets of OBJ and MTL files.
 void run_obj(Bytes bytes);

@@ -194,7 +194,9 @@ constexpr Target kTargets[] = {{"gltf", run_gltf},
                                {"tiff", run_tiff},
                                {"hdr", run_hdr},
                                {"capture_map", run_capture_map},
-                               {"light_spv", run_light_spv}};
+                               {"light_spv", run_light_spv},
+                               {"light_glsl", run_light_glsl},
+                               {"light_nodes", run_light_nodes}};
 
 }  // namespace
 
