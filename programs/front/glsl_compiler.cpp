@@ -30,10 +30,6 @@ struct GlslangProcess {
   GlslangProcess& operator=(const GlslangProcess&) = delete;
   mutable std::mutex mutex;  ///< glslang has locks, which nobody may hold where the process is copied
 };
-const GlslangProcess& glslang_process() {
-  static const GlslangProcess process;
-  return process;
-}
 
 /// What a line of glslang's log says: `ERROR: TEXT:LINE: message`, and of newer versions `ERROR: TEXT:LINE:COLUMN:
 /// ...`.
@@ -149,6 +145,16 @@ std::vector<uint32_t> compiled(const std::string& file, const std::string& text,
   std::vector<uint32_t> words;
   glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), words, &options);
   return words;
+}
+
+/// glslang with the tables of what GLSL has, which its first text makes it build in some 50 ms: processes that are copied
+/// from this one have them.
+const GlslangProcess& glslang_process() {
+  static const struct Ready {
+    GlslangProcess process;
+    Ready() { compiled("", "", "layout(local_size_x = 1) in; void main() {}", false, {}); }
+  } ready;
+  return ready.process;
 }
 
 /// Runs a task on a thread whose stack holds a recursion so deep, with what a step of glslang's takes, some 1 kB, and
