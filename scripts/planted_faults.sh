@@ -24,7 +24,7 @@ race() {  # ./check threads
   build/tsan/tests/core/test_core 'loops within loops*'
 }
 past_end() {  # ./check readers, and ./check fuzz
-  configure fuzz TRUESHADE_SIMD=sse4 TRUESHADE_PARTS=all TRUESHADE_TESTS=fuzz TRUESHADE_BATCH=8
+  configure fuzz "TRUESHADE_SIMD=avx2;sse4" TRUESHADE_PARTS=all TRUESHADE_TESTS=fuzz TRUESHADE_BATCH=8
   build fuzz fuzz_replay
   build/fuzz/tests/fuzz/fuzz_replay ply tests/fuzz/corpus/ply
 }

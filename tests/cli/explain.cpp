@@ -112,7 +112,7 @@ TEST_CASE("explain says of a pixel that is no number where it became none, and w
        "vec3 light(Surface s, Light l, View v) {\n  return vec3(sqrt(-2.0 - 0.0 * s.albedo.a));\n}\n",
        "rgba16f",
        "deferred-volumes",
-       {"not_finite  NaN, NaN, NaN", "stored is nan, nan, nan", "first_line  2: return vec3(sqrt(",
+       {"not_finite  NaN, NaN, NaN", "stored is NaN, NaN, NaN", "first_line  2: return vec3(sqrt(",
         "first_value  sqrt(-2) is NaN"}},
       {"a quotient by 0 before the NaN",
        "vec3 light(Surface s, Light l, View v) {\n  float z = s.albedo.a - 1.0;\n  float q = 2.0 / z;\n"
@@ -130,7 +130,7 @@ TEST_CASE("explain says of a pixel that is no number where it became none, and w
        "  return vec4(log(-sum), 1);\n}\n",
        "rgba32f",
        "forward-loop",
-       {"is finish(); stored is nan, nan, nan, 1", "first_line  3: return vec4(log(-sum), 1);"}},
+       {"is finish(); stored is NaN, NaN, NaN, 1", "first_line  3: return vec4(log(-sum), 1);"}},
       {"more than the format holds",
        "vec3 light(Surface s, Light l, View v) { return vec3(1e5, 0, 0); }\n",
        "rgba16f",

@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 source scripts/setup.sh
 install_packages tests clang
-[[ -e build/fuzz/build.ninja ]] || configure fuzz TRUESHADE_SIMD=sse4 TRUESHADE_PARTS=all TRUESHADE_TESTS=fuzz  # or that of ./check readers
+[[ -e build/fuzz/build.ninja ]] || configure fuzz "TRUESHADE_SIMD=avx2;sse4" TRUESHADE_PARTS=all TRUESHADE_TESTS=fuzz  # or that of ./check readers
 build fuzz fuzzer
 build fuzz fuzz_replay
 seconds=$1
