@@ -184,9 +184,9 @@ void add_nonfinite(const ExplainedFrame& frame, const PixelHistory& history, Acc
   for (const AccountValue& value : values_in_format(frame.target.format, history.stored))
     stored += (stored.empty() ? "" : ", ") +
               (std::holds_alternative<float>(value) ? number_text(std::get<float>(value)) : value_text(value));
-  to.add("not_finite", values_text(loss->values), "is " + loss->of + "; stored is " + stored);
-  if (!loss->line.empty()) to.add("first_line", loss->line, "of the light program, where a value first is not finite");
-  if (!loss->operation.empty()) to.add("first_value", loss->operation, "");
+  to.add("nonfinite", values_text(loss->values), "is " + loss->of + "; stored is " + stored);
+  if (!loss->line.empty()) to.add("line", loss->line, "of the light program, where a value first is not finite");
+  if (!loss->operation.empty()) to.add("operation", loss->operation, "");
 }
 
 }  // namespace trueshade
