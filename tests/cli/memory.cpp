@@ -402,7 +402,7 @@ TEST_CASE("limits of light programs have options that their errors name, and tha
   check_refused(with({"--max-loop-trips", "2999"}), 4, "--max-loop-trips");
   CHECK(with({"--max-loop-trips", "3000"}).exit_code == 0);
   check_refused(with({"--max-loop-trips", "3000", "--max-program-nodes", "5000"}), 4, "--max-program-nodes");
-  for (const char* const command : {"view", "explain", "shade", "glsl", "list"})
+  for (const char* const command : {"view", "explain", "shade", "glsl"})
     CHECK_THAT(run_command({command, "--help"}).out, Catch::Contains("--max-loop-trips"));
 }
 
