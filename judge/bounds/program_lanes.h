@@ -38,7 +38,9 @@ struct ProgramStep {
 };
 
 /// The largest magnitude of a component of a unit vector, however far the vector was off.
-inline double largest_of_unit(const Arithmetic& a) { return 1 + 4 * a.roundoff + 2 * a.inverse_sqrt; }
+inline double largest_of_unit(const Arithmetic& a) {
+  return 1 + 4 * a.roundoff + 2 * a.inverse_sqrt + normalize_error(a);
+}
 
 inline constexpr size_t kIntervalLanes = 64;
 

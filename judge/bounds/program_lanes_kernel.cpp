@@ -49,15 +49,32 @@ class Lanes {
     const D d;
     if (in_.lanes[p.rate] != nullptr) {
       const LaneInterval& x = in_.lanes[p.rate][p.slot];
-      return {hn::Load(d, &x.value[i]), hn::Load(d, &x.low[i]), hn::Load(d, &x.high[i])};
+      return flushed({hn::Load(d, &x.value[i]), hn::Load(d, &x.low[i]), hn::Load(d, &x.high[i])});
     }
     const Interval& x = in_.one[p.rate][p.slot];
     if (x.maybe_nan) return anything(number(x.value));
-    return {number(x.value), number(x.low), number(x.high)};
+    return flushed({number(x.value), number(x.low), number(x.high)});
   }
 
-  void store(const ProgramStep& step, size_t i, const Three& x) const {
+  /// taken() of interval.h, where operands are finite.
+  Three flushed(Three x) const {
+    if (!in_.arithmetic.wgsl) return x;
+    const V zero = hn::Zero(D()), least = number(kSmallestFloat);
+    x.low = hn::IfThenZeroElse(hn::And(hn::Gt(x.low, zero), hn::Lt(x.low, least)), x.low);
+    x.high = hn::IfThenZeroElse(hn::And(hn::Lt(x.high, zero), hn::Gt(x.high, hn::Neg(least))), x.high);
+    return x;
+  }
+  static M is_infinite(const Three& x) { return hn::Gt(size_of(x), number(double(std::numeric_limits<float>::max()))); }
+  /// reach() of interval.h.
+  V reach(V x, V relative) const {
+    const V size = hn::Abs(x);
+    if (!in_.arithmetic.wgsl) return hn::Mul(relative, size);
+    return hn::IfThenZeroElse(hn::Eq(size, hn::Zero(D())), hn::Mul(relative, hn::Max(size, number(0x1p-103))));
+  }
+
+  void store(const ProgramStep& step, size_t i, Three x) const {
     const D d;
+    if (in_.arithmetic.wgsl) x = chosen(is_infinite(x), anything(x.value), x);
     LaneInterval& out = in_.out[step.slot];
     hn::Store(x.value, d, &out.value[i]), hn::Store(x.low, d, &out.low[i]), hn::Store(x.high, d, &out.high[i]);
   }
@@ -108,7 +125,7 @@ class Lanes {
   /// within() of interval.h without an absolute error.
   Three within(Three x, double relative) const {
     const V zero = hn::Zero(D()), r = number(relative);
-    const V low = hn::Sub(x.low, hn::Mul(r, hn::Abs(x.low))), high = hn::Add(x.high, hn::Mul(r, hn::Abs(x.high)));
+    const V low = hn::Sub(x.low, reach(x.low, r)), high = hn::Add(x.high, reach(x.high, r));
     x.low = hn::IfThenElse(hn::Ge(x.low, zero), hn::Max(zero, low), low);
     x.high = hn::IfThenElse(hn::Le(x.high, zero), hn::Min(zero, high), high);
     return in_floats(x);
@@ -133,6 +150,7 @@ class Lanes {
     const V partial = hn::Mul(unit, magnitude);
     if (step.terms > 2) out.low = hn::Sub(out.low, partial), out.high = hn::Add(out.high, partial);
     M wrong = hn::Ne(zero, zero);
+    if (in_.arithmetic.wgsl) wrong = hn::Gt(magnitude, number(double(std::numeric_limits<float>::max())));
     for (uint32_t k = 0; k < step.mixes; ++k) {
       const ProgramMix& mix = in_.mixes[step.first_mix + k];
       const V factors = hn::Mul(size_of(load(mix.a, i)), hn::Add(size_of(load(mix.x, i)), size_of(load(mix.y, i))));
@@ -183,9 +201,13 @@ class Lanes {
 
   Three quotient(const Three& x, const Three& y) const {
     const V zero = hn::Zero(D());
-    const M by_zero = hn::And(hn::Le(y.low, zero), hn::Ge(y.high, zero));
+    M by_zero = hn::And(hn::Le(y.low, zero), hn::Ge(y.high, zero));
     Three out = of_corners(x, y, [](V a, V b) { return hn::Div(a, b); });
     const M far = hn::Gt(size_of(y), number(0x1p126));
+    if (in_.arithmetic.wgsl) {
+      const V least = number(kSmallestFloat);
+      by_zero = hn::Or(far, hn::And(hn::Lt(y.low, least), hn::Gt(y.high, hn::Neg(least))));
+    }
     out.low = hn::IfThenElse(far, hn::Min(out.low, zero), out.low);
     out.high = hn::IfThenElse(far, hn::Max(out.high, zero), out.high);
     out = in_.arithmetic.divide <= 0x1p-24 ? rounded(out) : within(out, in_.arithmetic.divide);
@@ -194,7 +216,7 @@ class Lanes {
 
   Three root(const Three& x, bool inverse) const {
     const V zero = hn::Zero(D()), one = number(1);
-    const bool none_of_zero = inverse && !in_.arithmetic.exact_pow;
+    const bool none_of_zero = (inverse && !in_.arithmetic.exact_pow) || in_.arithmetic.wgsl;
     const M wrong = none_of_zero ? hn::Le(x.low, zero) : hn::Lt(x.low, zero);
     const V low = hn::Max(x.low, zero), high = hn::Max(x.high, zero), value = hn::Max(x.value, zero);
     Three out{hn::Sqrt(value), hn::Sqrt(low), hn::Sqrt(high)};
@@ -287,23 +309,33 @@ class Lanes {
     const V close = hn::Div(hn::Abs(hn::Sub(x, number(1))), hn::Min(x, number(1)));
     const V log2_x = hn::IfThenElse(near_one, hn::Min(hn::Mul(close, number(1 / kLn2)), by_bits), by_bits);
     const V y = hn::Mul(log2_x, s);
+    const double more = in_.arithmetic.more_ulps();
     const V log2_error = hn::IfThenElse(near_one, hn::Mul(number(0x1p-21), s), hn::Mul(y, number(3 * kUlp)));
-    const V q = hn::Mul(hn::Add(log2_error, hn::Mul(y, number(in_.arithmetic.roundoff))), number(kLn2));
-    const V own = hn::Mul(hn::Add(hn::Add(y, y), number(3)), number(kUlp));
+    const V unit = number(in_.arithmetic.roundoff + more * kUlp);
+    const V q = hn::Mul(hn::Add(log2_error, hn::Mul(y, unit)), number(kLn2));
+    const V own = hn::Mul(hn::Add(hn::Add(y, y), number(3 + more)), number(kUlp));
     const V error = hn::Add(hn::Add(hn::Mul(q, hn::Add(q, number(1))), own), hn::Mul(number(0x1p-45), s));
     return hn::IfThenElse(hn::Le(q, number(1)), error, number(HUGE_VAL));
   }
   Three power(const Three& x, V s) const {
-    const V zero = hn::Zero(D()), one = number(1);
+    const V zero = hn::Zero(D());
     const V low = hn::Max(x.low, zero), high = hn::Max(x.high, zero);
     const auto of = [&](V v, bool above) {
       const M none = hn::Eq(v, zero);
-      const V error = power_error(v, s), factor = above ? hn::Add(one, error) : hn::Max(zero, hn::Sub(one, error));
-      return hn::IfThenZeroElse(none, hn::Mul(powered(v, s), factor));
+      const V error = power_error(v, s), power = powered(v, s), off = reach(power, error);
+      return hn::IfThenZeroElse(none, above ? hn::Add(power, off) : hn::Max(zero, hn::Sub(power, off)));
     };
     const Three out{powered(hn::Max(x.value, zero), s), of(low, false), of(high, true)};
     const M beyond = hn::Not(hn::Le(out.high, number(double(std::numeric_limits<float>::max()))));
-    return chosen(hn::Or(hn::Lt(x.low, zero), beyond), anything(out.value), in_floats(out));
+    const M wrong = in_.arithmetic.wgsl ? hn::Le(x.low, zero) : hn::Lt(x.low, zero);
+    return chosen(hn::Or(wrong, beyond), anything(out.value), in_floats(out));
+  }
+
+  /// WGSL: the least and the largest of two that are below 2^-126 may be either.
+  Three either_subnormal(const Three& x, const Three& y, const Three& out) const {
+    if (!in_.arithmetic.wgsl) return out;
+    const M both = hn::Lt(hn::Max(size_of(x), size_of(y)), number(kSmallestFloat));
+    return chosen(both, {out.value, hn::Min(x.low, y.low), hn::Max(x.high, y.high)}, out);
   }
 
   /// Whether all lanes have whole exponents, as a shininess is.
@@ -364,7 +396,9 @@ class Lanes {
         const Three out = op == Op::f_min
                               ? Three{hn::Min(x.value, y.value), hn::Min(x.low, y.low), hn::Min(x.high, y.high)}
                               : Three{hn::Max(x.value, y.value), hn::Max(x.low, y.low), hn::Max(x.high, y.high)};
-        return store(step, i, chosen(hn::Or(is_anything(x), is_anything(y)), anything(out.value), out));
+        M wrong = hn::Or(is_anything(x), is_anything(y));
+        if (in_.arithmetic.wgsl) wrong = hn::Or(is_infinite(x), is_infinite(y));
+        return store(step, i, chosen(wrong, anything(out.value), either_subnormal(x, y, out)));
       }
       case Op::f_eq:
       case Op::f_ne:
@@ -374,6 +408,8 @@ class Lanes {
         return store(step, i, compared(op, x, load(step.from[1], i), i));
       case Op::select: {
         Three out = selected(x, load(step.from[1], i), load(step.from[2], i));
+        if (step.normalizes && in_.arithmetic.wgsl)
+          out = chosen(is_anything(out), out, within(out, normalize_error(in_.arithmetic)));
         if (step.normalizes && !in_.arithmetic.exact_pow) out = chosen(hn::Gt(x.low, zero), out, anything(out.value));
         return store(step, i, out);
       }
