@@ -78,6 +78,12 @@ Interval logical(Op op, const Interval& x, const Interval& y) {
   }
 }
 
+/// What a sum in double leaves out (Knuth's TwoSum): 1 - 2^-126 is 1, but WGSL may round it to the float below.
+double lost(double x, double y) {
+  const double sum = x + y, part = sum - x;
+  return (x - (sum - part)) + (y - part);
+}
+
 /// Nothing is known of the integer but its type.
 Interval any_integer(Type type) {
   if (type == Type::u32) return {0, 0, 0xFFFFFFFFp0, false};
@@ -266,8 +272,10 @@ Interval IntervalArithmetic::sum(std::span<const Interval> terms, double more) c
   double magnitude = 0;
   if (std::isnan(more)) return Interval::anything();
   bool not_negative = true, not_positive = true;
+  double lost_low = 0, lost_high = 0;
   for (const Interval& term : terms) {
     const Interval t = a_.wgsl ? taken(term, false) : term;
+    lost_low += lost(out.low, t.low), lost_high += lost(out.high, t.high);
     out.value += t.value, out.low += t.low, out.high += t.high;
     out.maybe_nan = out.maybe_nan || t.maybe_nan;
     magnitude += t.size();
@@ -277,8 +285,10 @@ Interval IntervalArithmetic::sum(std::span<const Interval> terms, double more) c
   const double partial = double(terms.size() - 2) * a_.roundoff * magnitude;
   if (terms.size() > 2) out.low -= partial, out.high += partial;
   if (more != 0 && !(more < HUGE_VAL)) return Interval::anything();
-  if (a_.wgsl && magnitude > kLargest) return Interval::anything();  // in another order it is beyond all floats
+  if (a_.wgsl && terms.size() > 2 && magnitude > kLargest) return Interval::anything();  // in another order it is beyond all floats
   out.low -= more, out.high += more;
+  if (a_.wgsl && lost_low < 0) out.low = std::nextafter(out.low, -HUGE_VAL);
+  if (a_.wgsl && lost_high > 0) out.high = std::nextafter(out.high, HUGE_VAL);
   if (not_negative) out.low = std::max(out.low, 0.0);
   if (not_positive) out.high = std::min(out.high, 0.0);
   return rounded(out);

@@ -131,6 +131,22 @@ class Lanes {
     return in_floats(x);
   }
 
+  /// lost() of interval.h.
+  static V lost(V x, V y) {
+    const V sum = hn::Add(x, y), part = hn::Sub(sum, x);
+    return hn::Add(hn::Sub(x, hn::Sub(sum, part)), hn::Sub(y, part));
+  }
+  /// Ends that are no doubles move outward in WGSL.
+  Three added(const Three& x, const Three& y) const {
+    Three out{hn::Add(x.value, y.value), hn::Add(x.low, y.low), hn::Add(x.high, y.high)};
+    if (!in_.arithmetic.wgsl) return out;
+    const V zero = hn::Zero(D()), part = number(0x1p-52);
+    const M below = hn::Lt(lost(x.low, y.low), zero), above = hn::Gt(lost(x.high, y.high), zero);
+    out.low = hn::IfThenElse(below, hn::Sub(out.low, hn::Mul(part, hn::Abs(out.low))), out.low);
+    out.high = hn::IfThenElse(above, hn::Add(out.high, hn::Mul(part, hn::Abs(out.high))), out.high);
+    return out;
+  }
+
   Three sum(const ProgramStep& step, size_t i) const {
     V magnitude = hn::Zero(D()), least = number(HUGE_VAL), most = number(-HUGE_VAL);
     Three out{magnitude, magnitude, magnitude};
@@ -138,7 +154,7 @@ class Lanes {
       const ProgramTerm& term = in_.terms[step.first_term + k];
       Three x = load(term.from, i);
       if (term.negated) x = negated(x);
-      out.value = hn::Add(out.value, x.value), out.low = hn::Add(out.low, x.low), out.high = hn::Add(out.high, x.high);
+      out = added(out, x);
       magnitude = hn::Add(magnitude, size_of(x));
       least = hn::Min(least, x.low), most = hn::Max(most, x.high);
     }
@@ -150,7 +166,7 @@ class Lanes {
     const V partial = hn::Mul(unit, magnitude);
     if (step.terms > 2) out.low = hn::Sub(out.low, partial), out.high = hn::Add(out.high, partial);
     M wrong = hn::Ne(zero, zero);
-    if (in_.arithmetic.wgsl) wrong = hn::Gt(magnitude, number(double(std::numeric_limits<float>::max())));
+    if (in_.arithmetic.wgsl && step.terms > 2) wrong = hn::Gt(magnitude, number(double(std::numeric_limits<float>::max())));
     for (uint32_t k = 0; k < step.mixes; ++k) {
       const ProgramMix& mix = in_.mixes[step.first_mix + k];
       const V factors = hn::Mul(size_of(load(mix.a, i)), hn::Add(size_of(load(mix.x, i)), size_of(load(mix.y, i))));
@@ -165,7 +181,7 @@ class Lanes {
 
   Three two_terms(const Three& x, const Three& y) const {
     const V zero = hn::Zero(D());
-    Three out{hn::Add(x.value, y.value), hn::Add(x.low, y.low), hn::Add(x.high, y.high)};
+    Three out = added(x, y);
     out.low = hn::IfThenElse(hn::Ge(hn::Min(x.low, y.low), zero), hn::Max(out.low, zero), out.low);
     out.high = hn::IfThenElse(hn::Le(hn::Max(x.high, y.high), zero), hn::Min(out.high, zero), out.high);
     return rounded(out);
