@@ -285,7 +285,8 @@ Interval IntervalArithmetic::sum(std::span<const Interval> terms, double more) c
   const double partial = double(terms.size() - 2) * a_.roundoff * magnitude;
   if (terms.size() > 2) out.low -= partial, out.high += partial;
   if (more != 0 && !(more < HUGE_VAL)) return Interval::anything();
-  if (a_.wgsl && terms.size() > 2 && magnitude > kLargest) return Interval::anything();  // in another order it is beyond all floats
+  if (a_.wgsl && terms.size() > 2 && magnitude > kLargest)
+    return Interval::anything();  // in another order it is beyond all floats
   out.low -= more, out.high += more;
   if (a_.wgsl && lost_low < 0) out.low = std::nextafter(out.low, -HUGE_VAL);
   if (a_.wgsl && lost_high > 0) out.high = std::nextafter(out.high, HUGE_VAL);
@@ -450,8 +451,7 @@ Interval IntervalArithmetic::by_wgsl(Op op, const Interval& x, const Interval& y
       return of(Op::f_mul, of(Op::f_add, of(Op::exp, x), of(Op::exp, minus)), half);
     case Op::asinh:
     case Op::acosh:
-      return of(Op::log,
-                of(Op::f_add, x, of(Op::f_sqrt, of(op == Op::asinh ? Op::f_add : Op::f_sub, square(x), one))));
+      return of(Op::log, of(Op::f_add, x, of(Op::f_sqrt, of(op == Op::asinh ? Op::f_add : Op::f_sub, square(x), one))));
     case Op::atanh:
       return of(Op::f_mul, of(Op::log, of(Op::f_div, of(Op::f_add, one, x), of(Op::f_sub, one, x))), half);
     case Op::tanh:

@@ -166,7 +166,8 @@ class Lanes {
     const V partial = hn::Mul(unit, magnitude);
     if (step.terms > 2) out.low = hn::Sub(out.low, partial), out.high = hn::Add(out.high, partial);
     M wrong = hn::Ne(zero, zero);
-    if (in_.arithmetic.wgsl && step.terms > 2) wrong = hn::Gt(magnitude, number(double(std::numeric_limits<float>::max())));
+    if (in_.arithmetic.wgsl && step.terms > 2)
+      wrong = hn::Gt(magnitude, number(double(std::numeric_limits<float>::max())));
     for (uint32_t k = 0; k < step.mixes; ++k) {
       const ProgramMix& mix = in_.mixes[step.first_mix + k];
       const V factors = hn::Mul(size_of(load(mix.a, i)), hn::Add(size_of(load(mix.x, i)), size_of(load(mix.y, i))));
@@ -309,8 +310,8 @@ class Lanes {
       if (hn::AllTrue(d, hn::Eq(left, hn::Zero(d)))) return result;
     }
   }
-  /// The error of pow, of itself. |log2 x| is taken from above, by the exponent and the chord of log2 over a mantissa, or
-  /// next to 1 by |x - 1| / min(x, 1).
+  /// The error of pow, of itself. |log2 x| is taken from above, by the exponent and the chord of log2 over a mantissa,
+  /// or next to 1 by |x - 1| / min(x, 1).
   V power_error(V x, V s) const {
     if (in_.arithmetic.exact_pow) return hn::MulAdd(number(0x1p-45), s, number(0x1p-24));
     constexpr double kUlp = 0x1p-23, kLn2 = 0.69314718055994531;

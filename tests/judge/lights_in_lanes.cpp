@@ -6,9 +6,9 @@
 #include <numeric>
 #include <string>
 
+#include "core/simd/simd_target.h"
 #include "judge/bounds/profile.h"
 #include "judge/bounds/program_bounds.h"
-#include "core/simd/simd_target.h"
 #include "scenes/builtin/pcg32.h"
 #include "tests/catch.hpp"
 
