@@ -21,8 +21,7 @@ EdgeSpan edge_span(const WindowVertex& a, const WindowVertex& b, double x, doubl
   const EdgeSpan bx{b.low[0] - x, b.high[0] - x}, by{b.low[1] - y, b.high[1] - y};
   const bool points = ax.low == ax.high && ay.low == ay.high && bx.low == bx.high && by.low == by.high;
   const auto is_far = [](const EdgeSpan& e) { return std::fabs(e.low) >= 0x1p17; };
-  if (points &&
-      (is_far(ax) || is_far(ay) || is_far(bx) || is_far(by))) {  // 2^25 subpixels: the products need more than a double
+  if (points && (is_far(ax) || is_far(ay) || is_far(bx) || is_far(by))) {  // 2^25 subpixels: the products need more than a double
     const auto fixed = [](double v) { return Int128(std::llround(v * kSubpixels)); };
     const Int128 e = fixed(ax.low) * fixed(by.low) - fixed(ay.low) * fixed(bx.low);
     return {double(e), double(e)};  // only its sign is read

@@ -275,7 +275,7 @@ Interval IntervalArithmetic::sum(std::span<const Interval> terms, double more) c
   double lost_low = 0, lost_high = 0;
   for (const Interval& term : terms) {
     const Interval t = a_.wgsl ? taken(term, false) : term;
-    lost_low += lost(out.low, t.low), lost_high += lost(out.high, t.high);
+    if (a_.wgsl) lost_low += lost(out.low, t.low), lost_high += lost(out.high, t.high);
     out.value += t.value, out.low += t.low, out.high += t.high;
     out.maybe_nan = out.maybe_nan || t.maybe_nan;
     magnitude += t.size();

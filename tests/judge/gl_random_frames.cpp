@@ -70,7 +70,6 @@ TEST_CASE("llvmpipe is not convicted where it is lit by a light program at rando
   check_llvmpipe(FrameTheme::light_program, 1, 16);
 }
 
-TEST_CASE("Of five hundred frames of llvmpipe's that are lit by a light program at random none is convicted",
-          "[long]") {
+TEST_CASE("Of five hundred frames of llvmpipe's that are lit by a light program at random none is convicted", "[long]") {
   check_llvmpipe(FrameTheme::light_program, long_first(1000), long_count(500));
 }

@@ -1,8 +1,8 @@
 #pragma once
 #include <span>
 
-#include "judge/bounds/profile.h"
 #include "tests/judge/mutants/glass_mutants.h"
+#include "judge/bounds/profile.h"
 #include "tests/judge/tries.h"
 
 namespace trueshade::testing {

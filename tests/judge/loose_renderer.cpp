@@ -424,8 +424,8 @@ class Drawing {
     for (size_t i = first; i < lights; ++i) add_light(x, y, lit(s, i, i + 1).data());
   }
 
-  /// What the draws of forward-multipass after the first add, whose test is EQUAL: the light of each surface that has
-  /// the pixel's very depth, be it the clear depth.
+  /// What the draws of forward-multipass after the first add, whose test is EQUAL: the light of each surface that has the
+  /// pixel's very depth, be it the clear depth.
   void add_tied(int x, int y) {
     for (size_t i = 1; i < scene_.lights.size(); ++i)
       for (const LooseSurface& tied : tied_[size_t(y) * size_t(pipeline_.width) + size_t(x)])

@@ -4,15 +4,15 @@
 #include <optional>
 
 #include "gl/driver/renderer.h"
+#include "tests/judge/mutants/blend_mutants.h"
+#include "tests/judge/mutants/glass_mutants.h"
+#include "tests/judge/mutants/surface_mutants.h"
 #include "judge/stages/validate.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/builtin/pcg32.h"
 #include "scenes/pipeline/presets.h"
 #include "tests/catch.hpp"
 #include "tests/gl/opened_driver.h"
-#include "tests/judge/mutants/blend_mutants.h"
-#include "tests/judge/mutants/glass_mutants.h"
-#include "tests/judge/mutants/surface_mutants.h"
 
 using namespace trueshade;
 using namespace trueshade::oracle;

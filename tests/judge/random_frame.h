@@ -14,8 +14,8 @@ struct RandomFrame {
 /// What a frame is to have for sure; the rest of its state is drawn at random.
 enum class FrameTheme : uint8_t {
   any,
-  clamped_depths,   ///< forward-multipass, and a polygon offset that takes depths to an end of their range
-  sloped_depths,    ///< a polygon offset by the slope of thin triangles on silhouettes
+  clamped_depths,  ///< forward-multipass, and a polygon offset that takes depths to an end of their range
+  sloped_depths,   ///< a polygon offset by the slope of thin triangles on silhouettes
   glass_in_halves,  ///< glass that is blended into an albedo of rgb16f
   light_program     ///< lit by a light program at random
 };

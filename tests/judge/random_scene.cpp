@@ -1,7 +1,7 @@
 #include "tests/judge/random_scene.h"
 
-#include "scenes/builtin/texture_pattern.h"
 #include "scenes/shapes.h"
+#include "scenes/builtin/texture_pattern.h"
 
 namespace trueshade::testing {
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "oracle/blend.h"
 #include "gl/driver/renderer.h"
 #include "judge/stages/validate.h"
-#include "oracle/blend.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/shapes.h"
 #include "tests/catch.hpp"

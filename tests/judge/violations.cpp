@@ -1,7 +1,7 @@
 #include "tests/judge/violations.h"
 
-#include "tests/judge/captured.h"
 #include "tests/judge/mutants/mutants.h"
+#include "tests/judge/captured.h"
 
 namespace trueshade::testing {
 

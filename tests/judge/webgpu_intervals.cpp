@@ -318,7 +318,7 @@ const std::map<std::string, double> kWider{
 /// The same of the rules below, which measure from the real result and take floats alone.
 const std::map<std::string, double> kWiderThanRule{{"div", 3.5},    {"sqrt", 3},    {"inversesqrt", 4.001},
                                                    {"length", 3.1}, {"exp", 3.3},   {"exp2", 3.3},
-                                                   {"log", 3.2},    {"log2", 3.2},  {"pow", 4},
+                                                   {"log", 3.2},    {"log2", 3.2},  {"pow", 4.001},
                                                    {"tan", 1.001},  {"sin", 1.001}, {"cos", 1.001},
                                                    {"atan", 2},     {"atan2", 2},   {"asin", 1.9},
                                                    {"acos", 1.9},   {"sinh", 3.3},  {"cosh", 3.3},

@@ -3,8 +3,8 @@
 #include <span>
 #include <string>
 
-#include "judge/bounds/profile.h"
 #include "tests/judge/mutants/mutants.h"
+#include "judge/bounds/profile.h"
 #include "tests/judge/tries.h"
 
 namespace trueshade::testing {
