@@ -9,8 +9,9 @@ namespace {
 /// Relative error of pow(x, s) itself, x exact, |log2 x| = exponent, |s log2 x| = y.
 double own_error(const Arithmetic& a, bool near_one, double exponent, double y, double s) {
   if (a.exact_pow) return 0x1p-24;
-  const double ulp = 0x1p-23, log2_error = near_one ? 0x1p-21 : 3 * ulp * exponent;
-  return std::expm1(std::log(2.0) * (s * log2_error + y * a.roundoff)) + (3 + 2 * y) * ulp;
+  const double ulp = 0x1p-23, more = a.more_ulps() * ulp;
+  const double log2_error = (near_one ? 0x1p-21 : 3 * ulp * exponent) + more * exponent;
+  return std::expm1(std::log(2.0) * (s * log2_error + y * a.roundoff)) + (3 + 2 * y) * ulp + more;
 }
 
 /// x^s where x is not known to a good part of itself: both ends powered.
@@ -35,6 +36,7 @@ double relative_power_error(const Arithmetic& a, double x, double s) {
 }
 
 Bounded power(const Arithmetic& a, double low, double x, double high, double s) {
+  if (a.wgsl && !(low >= kSmallestFloat)) return {x > 0 ? std::pow(x, s) : 0, HUGE_VAL};  // log2 of none is open
   if (s == 0) return {1, 0};  // x = 0 is the caller's matter: GLSL leaves 0^0 undefined
   if (!(high > 0)) return {0, kSmallestFloat};
   const double r = low > 0 ? std::max(high - x, x - low) / low : HUGE_VAL, t = s * r;

@@ -15,7 +15,17 @@ struct Arithmetic {
   double inverse_sqrt = 2 * 0x1p-23;
   double square_root = 4.5 * 0x1p-23;
   bool exact_pow = false;  ///< powered in double and rounded once (docs/arithmetic.md section 9)
+  bool wgsl = false;       ///< WGSL's rules where they promise less; the numbers of both are its profile's
+
+  /// Ulps that exp2 and log2 err by beyond GLSL's: the WebGPU CTS measures from either neighbour of the real result.
+  double more_ulps() const { return wgsl ? 1 : 0; }
 };
+
+/// What WGSL's `v / length(v)` errs by beyond GLSL's `v * inversesqrt(dot(v, v))`: a root's and a division's errors in
+/// place of an inverse root's and a product's.
+inline double normalize_error(const Arithmetic& a) {
+  return a.wgsl ? 1.01 * (a.square_root + a.divide - a.inverse_sqrt) : 0;
+}
 
 /// Below this a float may have been flushed to zero: 2^-126.
 inline constexpr double kSmallestFloat = 0x1p-126;

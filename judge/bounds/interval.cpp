@@ -19,6 +19,14 @@ constexpr double kUlp = 0x1p-23;
 /// Vulkan promises no accuracy of trigonometry in ulp: 2^-11 of sine and cosine within [-pi, pi], 4096 ulp of atan.
 constexpr double kWave = 0x1p-11, kAngle = 4096 * kUlp;
 constexpr double kLargestAngle = 1e6;  ///< beyond, ours is NaN (docs/light_programs.md) and a driver's anything
+constexpr double kPi = double(std::numbers::pi_v<float>);  ///< WGSL bounds no sine beyond it
+/// WGSL: how far asin and acos, and tanh, may be off where they are made of no other functions.
+constexpr double kArc = 6.81e-5, kTanh = 1e-5;
+
+/// Whether all of it is below 2^-126.
+bool is_subnormal(const Interval& x) { return x.size() < kSmallestFloat; }
+/// Whether some of it is.
+bool may_be_subnormal(const Interval& x) { return x.low < kSmallestFloat && x.high > -kSmallestFloat; }
 
 /// Both ends of a function that grows, or falls, with its argument; `value` too.
 template <class F>
@@ -68,6 +76,12 @@ Interval logical(Op op, const Interval& x, const Interval& y) {
       return {differs, open ? 0.0 : differs, open ? 1.0 : differs, false};
     }
   }
+}
+
+/// What a sum in double leaves out (Knuth's TwoSum): 1 - 2^-126 is 1, but WGSL may round it to the float below.
+double lost(double x, double y) {
+  const double sum = x + y, part = sum - x;
+  return (x - (sum - part)) + (y - part);
 }
 
 /// Nothing is known of the integer but its type.
@@ -214,13 +228,35 @@ Interval IntervalArithmetic::rounded(Interval x) const {
   if (std::isnan(x.low) || std::isnan(x.high)) return Interval::anything();
   x.low = x.low > 0 && x.low < kSmallestFloat ? 0 : below(x.low);
   x.high = x.high < 0 && x.high > -kSmallestFloat ? 0 : above(x.high);
-  return x;
+  return a_.wgsl ? finite(x) : x;
+}
+
+/// WGSL, "Floating Point Rounding and Overflow": what is not finite is indeterminate.
+Interval IntervalArithmetic::finite(const Interval& x) const {
+  if (!x.maybe_nan && x.high <= kLargest && x.low >= -kLargest) return x;
+  Interval out = Interval::anything();
+  out.value = x.value;
+  return out;
+}
+
+/// An operand in WGSL: what is below 2^-126 may be flushed, and what is not finite is indeterminate, except that
+/// comparisons have correct results.
+Interval IntervalArithmetic::taken(Interval x, bool compares) const {
+  if (x.low > 0 && x.low < kSmallestFloat) x.low = 0;
+  if (x.high < 0 && x.high > -kSmallestFloat) x.high = 0;
+  return compares ? x : finite(x);
+}
+
+/// How far x may be off by a part of itself. In WGSL ulps of what is small are 2^-126, as the CTS has them, but none
+/// of 0.
+double IntervalArithmetic::reach(double x, double relative) const {
+  const double size = std::fabs(x);
+  return relative * (a_.wgsl && size > 0 ? std::max(size, 0x1p-103) : size);
 }
 
 /// The same of an operation that errs by so much; its sign stays.
 Interval IntervalArithmetic::within(Interval x, double relative, double absolute) const {
-  const double low = x.low - relative * std::fabs(x.low) - absolute;
-  const double high = x.high + relative * std::fabs(x.high) + absolute;
+  const double low = x.low - reach(x.low, relative) - absolute, high = x.high + reach(x.high, relative) + absolute;
   x.low = x.low >= 0 && absolute == 0 ? std::max(0.0, low) : low;
   x.high = x.high <= 0 && absolute == 0 ? std::min(0.0, high) : high;
   if (std::isnan(x.low) || std::isnan(x.high)) return Interval::anything();
@@ -228,7 +264,7 @@ Interval IntervalArithmetic::within(Interval x, double relative, double absolute
   if (x.high < 0 && x.high > -kSmallestFloat) x.high = 0;
   if (x.high > kLargest) x.high = HUGE_VAL;
   if (x.low < -kLargest) x.low = -HUGE_VAL;
-  return x;
+  return a_.wgsl ? finite(x) : x;
 }
 
 Interval IntervalArithmetic::sum(std::span<const Interval> terms, double more) const {
@@ -236,7 +272,10 @@ Interval IntervalArithmetic::sum(std::span<const Interval> terms, double more) c
   double magnitude = 0;
   if (std::isnan(more)) return Interval::anything();
   bool not_negative = true, not_positive = true;
-  for (const Interval& t : terms) {
+  double lost_low = 0, lost_high = 0;
+  for (const Interval& term : terms) {
+    const Interval t = a_.wgsl ? taken(term, false) : term;
+    if (a_.wgsl) lost_low += lost(out.low, t.low), lost_high += lost(out.high, t.high);
     out.value += t.value, out.low += t.low, out.high += t.high;
     out.maybe_nan = out.maybe_nan || t.maybe_nan;
     magnitude += t.size();
@@ -247,7 +286,11 @@ Interval IntervalArithmetic::sum(std::span<const Interval> terms, double more) c
   const bool is_infinite = out.low == out.high && std::isinf(out.low);  // which nothing changes
   if (terms.size() > 2 && !is_infinite) out.low -= partial, out.high += partial;
   if (more != 0 && !(more < HUGE_VAL)) return Interval::anything();
+  if (a_.wgsl && terms.size() > 2 && magnitude > kLargest)
+    return Interval::anything();  // in another order it is beyond all floats
   out.low -= more, out.high += more;
+  if (a_.wgsl && lost_low < 0) out.low = std::nextafter(out.low, -HUGE_VAL);
+  if (a_.wgsl && lost_high > 0) out.high = std::nextafter(out.high, HUGE_VAL);
   if (not_negative) out.low = std::max(out.low, 0.0);
   if (not_positive) out.high = std::min(out.high, 0.0);
   return rounded(out);
@@ -282,6 +325,11 @@ Interval IntervalArithmetic::square(const Interval& x) const {
 }
 
 Interval IntervalArithmetic::quotient(const Interval& x, const Interval& y) const {
+  if (a_.wgsl && (may_be_subnormal(y) || y.size() > 0x1p126)) {
+    Interval out = Interval::anything();
+    if (y.value != 0) out.value = x.value / y.value;
+    return out;
+  }
   const bool by_zero = y.low <= 0 && y.high >= 0;
   if (by_zero && ((y.low < 0 && y.high > 0) || (x.low <= 0 && x.high >= 0) || (x.low < 0) != (y.low < 0) || x.low < 0))
     return Interval::anything();
@@ -302,7 +350,8 @@ Interval IntervalArithmetic::quotient(const Interval& x, const Interval& y) cons
 
 Interval IntervalArithmetic::root(const Interval& x) const {
   const double low = std::max(x.low, 0.0), high = std::max(x.high, 0.0), value = std::max(x.value, 0.0);
-  const Interval out{std::sqrt(value), std::sqrt(low), std::sqrt(high), x.maybe_nan || x.low < 0};
+  const bool none_of_it = a_.wgsl ? x.low <= 0 : x.low < 0;
+  const Interval out{std::sqrt(value), std::sqrt(low), std::sqrt(high), x.maybe_nan || none_of_it};
   return a_.square_root <= 0x1p-24 ? rounded(out) : within(out, a_.square_root);
 }
 
@@ -318,9 +367,9 @@ Interval IntervalArithmetic::exponential(const Interval& x, double base) const {
   const auto at = [scale](double v) { return std::exp2(v * scale); };
   Interval out{at(x.value), at(x.low), at(x.high), x.maybe_nan};
   if (a_.exact_pow) return within(out, kUlp);  // of a formula in double, rounded once
-  const auto error = [](double v) { return (3 + 2 * std::fabs(v)) * kUlp; };
-  out.low = std::isfinite(x.low) ? out.low * (1 - error(x.low)) : out.low;
-  out.high = std::isfinite(x.high) ? out.high * (1 + error(x.high)) : out.high;
+  const auto error = [this](double v) { return (3 + a_.more_ulps() + 2 * std::fabs(v)) * kUlp; };
+  out.low = std::isfinite(x.low) ? std::max(0.0, out.low - reach(out.low, error(x.low))) : out.low;
+  out.high = std::isfinite(x.high) ? out.high + reach(out.high, error(x.high)) : out.high;
   if (out.high > kLargest) return Interval::anything();  // as of power(): its accuracy ends there
   return within(out, 0);
 }
@@ -331,7 +380,7 @@ Interval IntervalArithmetic::logarithm(const Interval& x, double base) const {
                      x.maybe_nan || x.low < 0 || (x.low == 0 && !a_.exact_pow)};
   if (a_.exact_pow) return within(out, kUlp);  // of a formula in double, rounded once
   const bool near_one = low < 2 && high > 0.5;
-  return within(out, 3 * kUlp, near_one ? 0x1p-21 : 0);
+  return within(out, (3 + a_.more_ulps()) * kUlp, near_one ? 0x1p-21 : 0);
 }
 
 /// x^y grows or falls with each of x >= 0 and y, so its extremes are at corners.
@@ -353,10 +402,11 @@ Interval IntervalArithmetic::power(const Interval& x, const Interval& y) const {
 
 /// The sine of x + quarter pi / 2: of an interval within its half width of the middle.
 Interval IntervalArithmetic::wave(const Interval& x, double quarter) const {
-  if (x.maybe_nan || !(x.size() <= kLargestAngle)) return Interval::anything();
+  if (x.maybe_nan || !(x.size() <= (a_.wgsl ? kPi : kLargestAngle))) return Interval::anything();
   const auto at = [quarter](double v) { return quarter == 0 ? std::sin(v) : std::cos(v); };
   const double middle = at(x.low + (x.high - x.low) / 2), half = (x.high - x.low) / 2;
-  const double error = a_.exact_pow ? kUlp : kWave * std::max(1.0, x.size() / std::numbers::pi);
+  const double wave = kWave * std::max(1.0, x.size() / std::numbers::pi) + a_.more_ulps() * kUlp;
+  const double error = a_.exact_pow ? kUlp : wave;
   return {at(x.value), std::max(middle - half, -1.0) - error, std::min(middle + half, 1.0) + error, false};
 }
 
@@ -369,6 +419,7 @@ Interval IntervalArithmetic::tangent(const Interval& x) const {
 /// atan(y, x): on a rectangle that neither the origin nor the cut at x < 0 meets, the extremes are at corners.
 Interval IntervalArithmetic::angle(const Interval& y, const Interval& x) const {
   Interval out{std::atan2(y.value, x.value), HUGE_VAL, -HUGE_VAL, x.maybe_nan || y.maybe_nan};
+  if (a_.wgsl && (may_be_subnormal(y) || may_be_subnormal(x) || x.size() > 0x1p126)) out.maybe_nan = true;
   const bool on_axis = y.low <= 0 && y.high >= 0;
   if (on_axis && x.low <= 0) {
     out.low = -std::numbers::pi, out.high = std::numbers::pi;
@@ -380,7 +431,41 @@ Interval IntervalArithmetic::angle(const Interval& y, const Interval& x) const {
         out.low = std::min(out.low, both), out.high = std::max(out.high, both);
       }
   }
-  return a_.exact_pow ? within(out, kUlp) : within(out, kAngle, on_axis ? kSmallestFloat : 0);
+  return a_.exact_pow ? within(out, kUlp) : within(out, kAngle + a_.more_ulps() * kUlp, on_axis ? kSmallestFloat : 0);
+}
+
+/// Functions whose accuracy WGSL inherits from expressions of others.
+Interval IntervalArithmetic::by_wgsl(Op op, const Interval& x, const Interval& y) const {
+  const Interval one = Interval::of(1), half = Interval::of(0.5);
+  const auto of = [this](Op f, const Interval& p, const Interval& q = {}) {
+    ProgramNode node;
+    node.op = f;
+    return (*this)(node, p, q, {});
+  };
+  const Interval minus{-x.value, -x.high, -x.low, x.maybe_nan};
+  switch (op) {
+    case Op::pow:
+      return of(Op::exp2, of(Op::f_mul, y, of(Op::log2, x)));
+    case Op::sinh:
+      return of(Op::f_mul, of(Op::f_sub, of(Op::exp, x), of(Op::exp, minus)), half);
+    case Op::cosh:
+      return of(Op::f_mul, of(Op::f_add, of(Op::exp, x), of(Op::exp, minus)), half);
+    case Op::asinh:
+    case Op::acosh:
+      return of(Op::log, of(Op::f_add, x, of(Op::f_sqrt, of(op == Op::asinh ? Op::f_add : Op::f_sub, square(x), one))));
+    case Op::atanh:
+      return of(Op::f_mul, of(Op::log, of(Op::f_div, of(Op::f_add, one, x), of(Op::f_sub, one, x))), half);
+    case Op::tanh:
+      return hull(within(monotone(x, [](double v) { return std::tanh(v); }), kUlp, kTanh),
+                  of(Op::f_div, of(Op::sinh, x), of(Op::cosh, x)));
+    default: {
+      if (x.size() > 1) return Interval::anything();
+      const Interval other = of(Op::f_sqrt, of(Op::f_sub, one, square(x)));
+      if (op == Op::asin)
+        return hull(within(monotone(x, [](double v) { return std::asin(v); }), kUlp, kArc), of(Op::atan2, x, other));
+      return hull(within(monotone(x, [](double v) { return std::acos(v); }), kUlp, kArc), of(Op::atan2, other, x));
+    }
+  }
 }
 
 /// Functions that Vulkan derives of others: sinh of exp, acosh of log and sqrt. Their errors are those of the formula.
@@ -390,6 +475,7 @@ Interval IntervalArithmetic::function(Op op, const Interval& x, const Interval& 
     return a_.exact_pow ? within(out, kUlp) : within(out, relative, absolute);
   };
   const double size = x.size(), exponential_error = (4 + 2 * size) * kUlp;
+  if (a_.wgsl && (op == Op::pow || op == Op::asin || op == Op::acos || op >= Op::sinh)) return by_wgsl(op, x, y);
   switch (op) {
     case Op::exp:
       return exponential(x, std::numbers::e);
@@ -410,7 +496,7 @@ Interval IntervalArithmetic::function(Op op, const Interval& x, const Interval& 
     case Op::atan2:
       return angle(x, y);
     case Op::atan:
-      return of([](double v) { return std::atan(v); }, kAngle, 0);
+      return of([](double v) { return std::atan(v); }, kAngle + a_.more_ulps() * kUlp, 0);
     case Op::asin:
     case Op::acos: {  // atan2 of sqrt(1 - x x), which is 2^-11 off next to 1
       const Interval inside{std::clamp(x.value, -1.0, 1.0), std::clamp(x.low, -1.0, 1.0), std::clamp(x.high, -1.0, 1.0),
@@ -442,6 +528,13 @@ Interval IntervalArithmetic::function(Op op, const Interval& x, const Interval& 
 
 Interval IntervalArithmetic::operator()(const ProgramNode& node, const Interval& x, const Interval& y,
                                         const Interval& z) const {
+  if (!a_.wgsl) return made(node, x, y, z);
+  const bool compares = node.op >= Op::f_eq && node.op <= Op::f_le;
+  return made(node, taken(x, compares), taken(y, compares), taken(z, compares));
+}
+
+Interval IntervalArithmetic::made(const ProgramNode& node, const Interval& x, const Interval& y,
+                                  const Interval& z) const {
   switch (node.op) {
     case Op::constant:
     case Op::input:
@@ -485,8 +578,10 @@ Interval IntervalArithmetic::operator()(const ProgramNode& node, const Interval&
       return {std::fabs(x.value), least, x.size(), x.maybe_nan};
     }
     case Op::f_min:
+      if (a_.wgsl && is_subnormal(x) && is_subnormal(y)) return hull(x, y);  // either of these
       return {std::min(x.value, y.value), std::min(x.low, y.low), std::min(x.high, y.high), x.maybe_nan || y.maybe_nan};
     case Op::f_max:
+      if (a_.wgsl && is_subnormal(x) && is_subnormal(y)) return hull(y, x);
       return {std::max(x.value, y.value), std::max(x.low, y.low), std::max(x.high, y.high), x.maybe_nan || y.maybe_nan};
     case Op::f_eq:
     case Op::f_ne:
@@ -509,7 +604,9 @@ Interval IntervalArithmetic::operator()(const ProgramNode& node, const Interval&
     case Op::b_not:
       return logical(node.op, x, y);
     case Op::ldexp:
-      if (!y.known() || std::fabs(y.value) > 300) return Interval::anything();
+      if (!y.known() || std::fabs(y.value) > 300 || (a_.wgsl && y.value > 128)) return Interval::anything();
+      if (a_.wgsl && y.value <= -127)  // which may be taken for 0
+        return hull(rounded(monotone(x, [&](double v) { return std::ldexp(v, int(y.value)); })), Interval::of(0));
       return rounded(monotone(x, [&](double v) { return std::ldexp(v, int(y.value)); }));
     default:
       if (node.op >= Op::exp) return function(node.op, x, y);

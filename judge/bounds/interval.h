@@ -1,6 +1,7 @@
 #pragma once
 // What an operation of a light program may make of operands that are known within bounds, by the accuracy that GLSL
-// 4.60, 4.7.1 and Vulkan's "Precision and Operation of SPIR-V Instructions" promise of it.
+// 4.60, 4.7.1 and Vulkan's "Precision and Operation of SPIR-V Instructions" promise of it, or WGSL's "Floating Point
+// Accuracy" where Arithmetic::wgsl.
 #include <cmath>
 #include <span>
 
@@ -49,8 +50,14 @@ class IntervalArithmetic {
   /// A product of products, whose factors a driver may multiply in another order: its roundings are other ones then.
   Interval reordered(const Interval& product) const { return within(product, a_.roundoff); }
   Interval square(const Interval& x) const;
+  /// What normalize() multiplies a vector by, as WGSL may have it.
+  Interval normalizing(const Interval& inverse_root) const { return within(inverse_root, normalize_error(a_)); }
 
  private:
+  Interval made(const programs::ProgramNode& node, const Interval& x, const Interval& y, const Interval& z) const;
+  Interval taken(Interval x, bool compares) const;
+  Interval finite(const Interval& x) const;
+  double reach(double x, double relative) const;
   double below(double x) const;
   double above(double x) const;
   Interval rounded(Interval x) const;
@@ -62,6 +69,7 @@ class IntervalArithmetic {
   Interval root(const Interval& x) const;
   Interval inverse_root(const Interval& x) const;
   Interval function(programs::Op op, const Interval& x, const Interval& y) const;
+  Interval by_wgsl(programs::Op op, const Interval& x, const Interval& y) const;
   Interval exponential(const Interval& x, double base) const;
   Interval logarithm(const Interval& x, double base) const;
   Interval power(const Interval& x, const Interval& y) const;

@@ -35,6 +35,20 @@ Profile vulkan() {
   return p;
 }
 
+/// WGSL's "Floating Point Accuracy", as its conformance suite (gpuweb/cts, webgpu/util/floating_point.ts) accepts it:
+/// from either neighbour of the real result, so an ulp beyond the table's 2.5 of division and 2 of inverseSqrt; sqrt is
+/// 1 / inverseSqrt. WebGPU states neither subpixel bits nor the precision of stores, of blending and of textures. It
+/// runs on Vulkan, D3D12 and Metal, so of these it promises what the least of them does, Vulkan.
+Profile webgpu() {
+  Profile p = vulkan();
+  p.name = "webgpu";
+  p.arithmetic.divide = 3.5 * 0x1p-23;
+  p.arithmetic.inverse_sqrt = 3 * 0x1p-23;
+  p.arithmetic.square_root = 6.6 * 0x1p-23;
+  p.arithmetic.wgsl = true;
+  return p;
+}
+
 /// docs/gl_rules.md sections 1 to 6: 24.8 to nearest even, planes from unsnapped positions, clipping at the viewport.
 Profile llvmpipe() {
   Profile p;
@@ -82,7 +96,7 @@ Profile ideal() {
 
 std::optional<Profile> profile_named(std::string_view name) {
   if (name == "unknown") return Profile{};
-  for (const Profile& profile : {vulkan(), d3d_class(), llvmpipe(), ideal()})
+  for (const Profile& profile : {vulkan(), webgpu(), d3d_class(), llvmpipe(), ideal()})
     if (name == profile.name) return profile;
   return std::nullopt;
 }

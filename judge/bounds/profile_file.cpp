@@ -59,6 +59,7 @@ void visit_fields(AnyProfile& p, Visitor& v) {
   v.number("inverse_sqrt", p.arithmetic.inverse_sqrt, 0, kUlps);
   v.number("square_root", p.arithmetic.square_root, 0, kUlps);
   v.flag("exact_pow", p.arithmetic.exact_pow);
+  v.flag("wgsl", p.arithmetic.wgsl);
   v.end();
 }
 

@@ -377,6 +377,7 @@ Interval ProgramBounds::evaluated(const Step& step, const Values& values, std::v
     const double most = largest_of_unit(arithmetic_);
     out.low = std::clamp(out.low, -most, most), out.high = std::clamp(out.high, -most, most);
   }
+  if (step.normalizes && arithmetic_.wgsl) out = of_.normalizing(out);
   if (step.normalizes && !arithmetic_.exact_pow && !at(step.from[0]).is_true()) out.maybe_nan = true;
   return out;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// The steps of a light program over the intervals of many surfaces at a time, a surface a lane, or of many lights at one
-// surface: for speed alone. What they leave, program_bounds.h takes one by one.
+// The steps of a light program over the intervals of many surfaces at a time, a surface a lane, or of many lights at
+// one surface: for speed alone. What they leave, program_bounds.h takes one by one.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -38,7 +38,9 @@ struct ProgramStep {
 };
 
 /// The largest magnitude of a component of a unit vector, however far the vector was off.
-inline double largest_of_unit(const Arithmetic& a) { return 1 + 4 * a.roundoff + 2 * a.inverse_sqrt; }
+inline double largest_of_unit(const Arithmetic& a) {
+  return 1 + 4 * a.roundoff + 2 * a.inverse_sqrt + normalize_error(a);
+}
 
 inline constexpr size_t kIntervalLanes = 64;
 
@@ -60,7 +62,7 @@ struct ProgramLanes {
   std::array<const LaneInterval*, programs::kRateCount> lanes{};
   LaneInterval* out = nullptr;
   Arithmetic arithmetic;
-  uint8_t* left = nullptr;  ///< set to 1 of lanes with a comparison that may go either way; null: nobody asks
+  uint8_t* left = nullptr;        ///< set to 1 of lanes with a comparison that may go either way; null: nobody asks
   size_t count = kIntervalLanes;  ///< lanes that are asked for: the first
 };
 

@@ -48,15 +48,32 @@ class Lanes {
     const D d;
     if (in_.lanes[p.rate] != nullptr) {
       const LaneInterval& x = in_.lanes[p.rate][p.slot];
-      return {hn::Load(d, &x.value[i]), hn::Load(d, &x.low[i]), hn::Load(d, &x.high[i])};
+      return flushed({hn::Load(d, &x.value[i]), hn::Load(d, &x.low[i]), hn::Load(d, &x.high[i])});
     }
     const Interval& x = in_.one[p.rate][p.slot];
     if (x.maybe_nan) return anything(number(x.value));
-    return {number(x.value), number(x.low), number(x.high)};
+    return flushed({number(x.value), number(x.low), number(x.high)});
   }
 
-  void store(const ProgramStep& step, size_t i, const Three& x) const {
+  /// taken() of interval.h, where operands are finite.
+  Three flushed(Three x) const {
+    if (!in_.arithmetic.wgsl) return x;
+    const V zero = hn::Zero(D()), least = number(kSmallestFloat);
+    x.low = hn::IfThenZeroElse(hn::And(hn::Gt(x.low, zero), hn::Lt(x.low, least)), x.low);
+    x.high = hn::IfThenZeroElse(hn::And(hn::Lt(x.high, zero), hn::Gt(x.high, hn::Neg(least))), x.high);
+    return x;
+  }
+  static M is_infinite(const Three& x) { return hn::Gt(size_of(x), number(double(std::numeric_limits<float>::max()))); }
+  /// reach() of interval.h.
+  V reach(V x, V relative) const {
+    const V size = hn::Abs(x);
+    if (!in_.arithmetic.wgsl) return hn::Mul(relative, size);
+    return hn::IfThenZeroElse(hn::Eq(size, hn::Zero(D())), hn::Mul(relative, hn::Max(size, number(0x1p-103))));
+  }
+
+  void store(const ProgramStep& step, size_t i, Three x) const {
     const D d;
+    if (in_.arithmetic.wgsl) x = chosen(is_infinite(x), anything(x.value), x);
     LaneInterval& out = in_.out[step.slot];
     hn::Store(x.value, d, &out.value[i]), hn::Store(x.low, d, &out.low[i]), hn::Store(x.high, d, &out.high[i]);
   }
@@ -109,10 +126,26 @@ class Lanes {
   /// within() of interval.h without an absolute error.
   Three within(Three x, double relative) const {
     const V zero = hn::Zero(D()), r = number(relative);
-    const V low = hn::Sub(x.low, hn::Mul(r, hn::Abs(x.low))), high = hn::Add(x.high, hn::Mul(r, hn::Abs(x.high)));
+    const V low = hn::Sub(x.low, reach(x.low, r)), high = hn::Add(x.high, reach(x.high, r));
     x.low = hn::IfThenElse(hn::Ge(x.low, zero), hn::Max(zero, low), low);
     x.high = hn::IfThenElse(hn::Le(x.high, zero), hn::Min(zero, high), high);
     return in_floats(x);
+  }
+
+  /// lost() of interval.h.
+  static V lost(V x, V y) {
+    const V sum = hn::Add(x, y), part = hn::Sub(sum, x);
+    return hn::Add(hn::Sub(x, hn::Sub(sum, part)), hn::Sub(y, part));
+  }
+  /// Ends that are no doubles move outward in WGSL.
+  Three added(const Three& x, const Three& y) const {
+    Three out{hn::Add(x.value, y.value), hn::Add(x.low, y.low), hn::Add(x.high, y.high)};
+    if (!in_.arithmetic.wgsl) return out;
+    const V zero = hn::Zero(D()), part = number(0x1p-52);
+    const M below = hn::Lt(lost(x.low, y.low), zero), above = hn::Gt(lost(x.high, y.high), zero);
+    out.low = hn::IfThenElse(below, hn::Sub(out.low, hn::Mul(part, hn::Abs(out.low))), out.low);
+    out.high = hn::IfThenElse(above, hn::Add(out.high, hn::Mul(part, hn::Abs(out.high))), out.high);
+    return out;
   }
 
   Three sum(const ProgramStep& step, size_t i) const {
@@ -122,7 +155,7 @@ class Lanes {
       const ProgramTerm& term = in_.terms[step.first_term + k];
       Three x = load(term.from, i);
       if (term.negated) x = negated(x);
-      out.value = hn::Add(out.value, x.value), out.low = hn::Add(out.low, x.low), out.high = hn::Add(out.high, x.high);
+      out = added(out, x);
       magnitude = hn::Add(magnitude, size_of(x));
       least = hn::Min(least, x.low), most = hn::Max(most, x.high);
     }
@@ -131,10 +164,12 @@ class Lanes {
 
   Three summed(const ProgramStep& step, size_t i, Three out, V magnitude, V least, V most) const {
     const V zero = hn::Zero(D()), unit = number(double(step.terms - 2) * in_.arithmetic.roundoff);
-    const M is_infinite = hn::And(hn::Eq(out.low, out.high), hn::Eq(hn::Abs(out.low), number(HUGE_VAL)));
-    const V partial = hn::IfThenZeroElse(is_infinite, hn::Mul(unit, magnitude));
+    const M surely_infinite = hn::And(hn::Eq(out.low, out.high), hn::Eq(hn::Abs(out.low), number(HUGE_VAL)));
+    const V partial = hn::IfThenZeroElse(surely_infinite, hn::Mul(unit, magnitude));
     if (step.terms > 2) out.low = hn::Sub(out.low, partial), out.high = hn::Add(out.high, partial);
     M wrong = hn::Ne(zero, zero);
+    if (in_.arithmetic.wgsl && step.terms > 2)
+      wrong = hn::Gt(magnitude, number(double(std::numeric_limits<float>::max())));
     for (uint32_t k = 0; k < step.mixes; ++k) {
       const ProgramMix& mix = in_.mixes[step.first_mix + k];
       const V factors = hn::Mul(size_of(load(mix.a, i)), hn::Add(size_of(load(mix.x, i)), size_of(load(mix.y, i))));
@@ -149,7 +184,7 @@ class Lanes {
 
   Three two_terms(const Three& x, const Three& y) const {
     const V zero = hn::Zero(D());
-    Three out{hn::Add(x.value, y.value), hn::Add(x.low, y.low), hn::Add(x.high, y.high)};
+    Three out = added(x, y);
     out.low = hn::IfThenElse(hn::Ge(hn::Min(x.low, y.low), zero), hn::Max(out.low, zero), out.low);
     out.high = hn::IfThenElse(hn::Le(hn::Max(x.high, y.high), zero), hn::Min(out.high, zero), out.high);
     return rounded(out);
@@ -185,9 +220,13 @@ class Lanes {
 
   Three quotient(const Three& x, const Three& y) const {
     const V zero = hn::Zero(D());
-    const M by_zero = hn::And(hn::Le(y.low, zero), hn::Ge(y.high, zero));
+    M by_zero = hn::And(hn::Le(y.low, zero), hn::Ge(y.high, zero));
     Three out = of_corners(x, y, [](V a, V b) { return hn::Div(a, b); });
     const M far = hn::Gt(size_of(y), number(0x1p126));
+    if (in_.arithmetic.wgsl) {
+      const V least = number(kSmallestFloat);
+      by_zero = hn::Or(far, hn::And(hn::Lt(y.low, least), hn::Gt(y.high, hn::Neg(least))));
+    }
     out.low = hn::IfThenElse(far, hn::Min(out.low, zero), out.low);
     out.high = hn::IfThenElse(far, hn::Max(out.high, zero), out.high);
     out = in_.arithmetic.divide <= 0x1p-24 ? rounded(out) : within(out, in_.arithmetic.divide);
@@ -196,7 +235,7 @@ class Lanes {
 
   Three root(const Three& x, bool inverse) const {
     const V zero = hn::Zero(D()), one = number(1);
-    const bool none_of_zero = inverse && !in_.arithmetic.exact_pow;
+    const bool none_of_zero = (inverse && !in_.arithmetic.exact_pow) || in_.arithmetic.wgsl;
     const M wrong = none_of_zero ? hn::Le(x.low, zero) : hn::Lt(x.low, zero);
     const V low = hn::Max(x.low, zero), high = hn::Max(x.high, zero), value = hn::Max(x.value, zero);
     Three out{hn::Sqrt(value), hn::Sqrt(low), hn::Sqrt(high)};
@@ -275,8 +314,8 @@ class Lanes {
       if (hn::AllTrue(d, hn::Eq(left, hn::Zero(d)))) return result;
     }
   }
-  /// The error of pow, of itself. |log2 x| is taken from above, by the exponent and the chord of log2 over a mantissa, or
-  /// next to 1 by |x - 1| / min(x, 1).
+  /// The error of pow, of itself. |log2 x| is taken from above, by the exponent and the chord of log2 over a mantissa,
+  /// or next to 1 by |x - 1| / min(x, 1).
   V power_error(V x, V s) const {
     if (in_.arithmetic.exact_pow) return hn::MulAdd(number(0x1p-45), s, number(0x1p-24));
     constexpr double kUlp = 0x1p-23, kLn2 = 0.69314718055994531;
@@ -291,23 +330,33 @@ class Lanes {
     const V close = hn::Div(hn::Abs(hn::Sub(x, number(1))), hn::Min(x, number(1)));
     const V log2_x = hn::IfThenElse(near_one, hn::Min(hn::Mul(close, number(1 / kLn2)), by_bits), by_bits);
     const V y = hn::Mul(log2_x, s);
+    const double more = in_.arithmetic.more_ulps();
     const V log2_error = hn::IfThenElse(near_one, hn::Mul(number(0x1p-21), s), hn::Mul(y, number(3 * kUlp)));
-    const V q = hn::Mul(hn::Add(log2_error, hn::Mul(y, number(in_.arithmetic.roundoff))), number(kLn2));
-    const V own = hn::Mul(hn::Add(hn::Add(y, y), number(3)), number(kUlp));
+    const V unit = number(in_.arithmetic.roundoff + more * kUlp);
+    const V q = hn::Mul(hn::Add(log2_error, hn::Mul(y, unit)), number(kLn2));
+    const V own = hn::Mul(hn::Add(hn::Add(y, y), number(3 + more)), number(kUlp));
     const V error = hn::Add(hn::Add(hn::Mul(q, hn::Add(q, number(1))), own), hn::Mul(number(0x1p-45), s));
     return hn::IfThenElse(hn::Le(q, number(1)), error, number(HUGE_VAL));
   }
   Three power(const Three& x, V s) const {
-    const V zero = hn::Zero(D()), one = number(1);
+    const V zero = hn::Zero(D());
     const V low = hn::Max(x.low, zero), high = hn::Max(x.high, zero);
     const auto of = [&](V v, bool above) {
       const M none = hn::Eq(v, zero);
-      const V error = power_error(v, s), factor = above ? hn::Add(one, error) : hn::Max(zero, hn::Sub(one, error));
-      return hn::IfThenZeroElse(none, hn::Mul(powered(v, s), factor));
+      const V error = power_error(v, s), power = powered(v, s), off = reach(power, error);
+      return hn::IfThenZeroElse(none, above ? hn::Add(power, off) : hn::Max(zero, hn::Sub(power, off)));
     };
     const Three out{powered(hn::Max(x.value, zero), s), of(low, false), of(high, true)};
     const M beyond = hn::Not(hn::Le(out.high, number(double(std::numeric_limits<float>::max()))));
-    return chosen(hn::Or(hn::Lt(x.low, zero), beyond), anything(out.value), in_floats(out));
+    const M wrong = in_.arithmetic.wgsl ? hn::Le(x.low, zero) : hn::Lt(x.low, zero);
+    return chosen(hn::Or(wrong, beyond), anything(out.value), in_floats(out));
+  }
+
+  /// WGSL: the least and the largest of two that are below 2^-126 may be either.
+  Three either_subnormal(const Three& x, const Three& y, const Three& out) const {
+    if (!in_.arithmetic.wgsl) return out;
+    const M both = hn::Lt(hn::Max(size_of(x), size_of(y)), number(kSmallestFloat));
+    return chosen(both, {out.value, hn::Min(x.low, y.low), hn::Max(x.high, y.high)}, out);
   }
 
   /// Whether all lanes have whole exponents, as a shininess is.
@@ -350,8 +399,18 @@ class Lanes {
   static Three most_of(const Three& x, const Three& y) {
     return {hn::Max(x.value, y.value), hn::Max(x.low, y.low), hn::Max(x.high, y.high)};
   }
-  static Three unless_nan(const Three& x, const Three& y, const Three& out) {
-    return chosen(hn::Or(is_anything(x), is_anything(y)), anything(out.value), out);
+  /// min() or max(): of NaN anything.
+  Three bound_of(const Three& x, const Three& y, const Three& out) const {
+    M wrong = hn::Or(is_anything(x), is_anything(y));
+    if (in_.arithmetic.wgsl) wrong = hn::Or(is_infinite(x), is_infinite(y));
+    return chosen(wrong, anything(out.value), either_subnormal(x, y, out));
+  }
+
+  /// The choice of normalize() for a square of a length.
+  Three of_normalize(const Three& square, Three out) const {
+    if (in_.arithmetic.wgsl) out = chosen(is_anything(out), out, within(out, normalize_error(in_.arithmetic)));
+    if (in_.arithmetic.exact_pow) return out;
+    return chosen(hn::Gt(square.low, hn::Zero(D())), out, anything(out.value));
   }
 
   Three of_unit_vector(const Three& x) const {
@@ -392,9 +451,9 @@ class Lanes {
       case Op::f_abs:
         return each_of_one(step, [](const Three& x) { return magnitude(x); });
       case Op::f_min:
-        return each_of_two(step, [](const Three& x, const Three& y) { return unless_nan(x, y, least_of(x, y)); });
+        return each_of_two(step, [&](const Three& x, const Three& y) { return bound_of(x, y, least_of(x, y)); });
       case Op::f_max:
-        return each_of_two(step, [](const Three& x, const Three& y) { return unless_nan(x, y, most_of(x, y)); });
+        return each_of_two(step, [&](const Three& x, const Three& y) { return bound_of(x, y, most_of(x, y)); });
       case Op::f_eq:
       case Op::f_ne:
       case Op::f_lt:
@@ -405,8 +464,7 @@ class Lanes {
         return each(step, [&](size_t i) {
           const Three x = load(step.from[0], i);
           const Three out = selected(x, load(step.from[1], i), load(step.from[2], i));
-          if (!step.normalizes || in_.arithmetic.exact_pow) return out;
-          return chosen(hn::Gt(x.low, zero), out, anything(out.value));
+          return step.normalizes ? of_normalize(x, out) : out;
         });
       case Op::b_not:
         return each_of_one(step, [&](const Three& x) {

@@ -362,9 +362,9 @@ def validate(
     image: (height, width, 4), codes or floats of the pipeline's target; of uint8 and uint16 also (height, width, 3),
         whose alpha is not judged; None judges the planes alone. planes: what the renderer read back, by the names that
         render() has: depth, position, normal, albedo, id.object, ... Their size is the pipeline's.
-    profile: unknown, vulkan, d3d-class, mesa-llvmpipe-22.3 or ideal: what the device promises. subpixel_bits: of its
-        window coordinates, 4 to 16, if it is known. significance: how many legal images may fail the tests of the whole
-        image. mask, allow_mask: as compare() has them.
+    profile: unknown, vulkan, webgpu, d3d-class, mesa-llvmpipe-22.3 or ideal: what the device promises. subpixel_bits:
+        of its window coordinates, 4 to 16, if it is known. significance: how many legal images may fail the tests of
+        the whole image. mask, allow_mask: as compare() has them.
 
     Returns the verdict of `trueshade validate --json`: `pass` says that no pixel is in violation, `stages` holds for
     each stage the counts of pixels by class and the worst pixels, `evidence` what convicts the image as a whole.

@@ -144,16 +144,16 @@ struct Held {
 };
 
 /// Surfaces under one light each, by a driver with no scruples.
-Held held(const std::string& name, int surfaces, uint64_t seed) {
+Held held(const std::string& name, const char* profile, int surfaces, uint64_t seed) {
   Pcg32 random(seed, 5);
   const LightProgram text = model(name);
   const programs::Program program = programs::program_from_glsl(text.file, text.text);
-  LooseProgram driver(program, random);
+  LooseProgram driver(program, random, std::string(profile) == "webgpu");
   Held out;
   const Scene scene = scene_of(random, 100);
   Pipeline pipeline = pipeline_of(text);
   pipeline.light_volumes.point = pipeline.light_volumes.spot = LightExtent::unbounded;
-  const ProgramBounds bounds(scene, pipeline, Profile{}.arithmetic);
+  const ProgramBounds bounds(scene, pipeline, profile_named(profile)->arithmetic);
   ProgramBounds::Registers registers;
   for (int i = 0; i < surfaces; ++i) {
     const ShadedSurface surface = surface_of(random);
@@ -177,10 +177,10 @@ Held held(const std::string& name, int surfaces, uint64_t seed) {
   return out;
 }
 
-void check_held(int surfaces) {
+void check_held(const char* profile, int surfaces) {
   for (const char* name :
        {"mixture", "many_lights", "light_volumes", "ggx", "ggx_of_docs", "filament", "disney", "frostbite", "bevy"}) {
-    const Held h = held(name, surfaces, 11);
+    const Held h = held(name, profile, surfaces, 11);
     INFO(name << ": asked " << h.asked << ", undefined " << h.undefined << ", at a threshold " << h.branches
               << ", the farthest " << h.used << " of its bound");
     CHECK(h.outside == 0);
@@ -191,19 +191,24 @@ void check_held(int surfaces) {
 
 }  // namespace
 
-TEST_CASE("What a driver may compute of a light program lies within its bounds") { check_held(150); }
+TEST_CASE("What a driver may compute of a light program lies within its bounds") { check_held("unknown", 150); }
+
+TEST_CASE("What a WebGPU device may compute of a light program lies within the bounds of its profile") {
+  check_held("webgpu", 150);
+}
 
 TEST_CASE("What a driver may compute of a light program lies within its bounds, at 20,000 surfaces", "[long]") {
-  check_held(20000);
+  for (const char* profile : {"unknown", "webgpu"}) check_held(profile, 20000);
 }
 
 TEST_CASE("Light programs judged in lanes have the lights and branches of one by one, and bounds about as large") {
   for (const std::string_view target : simd_targets()) {
     const SimdScope scope(target);
-    for (const char* name : kModels) {
+    for (size_t m = 0; m < 2 * std::size(kModels); ++m) {
+      const char *name = kModels[m / 2], *profile = m % 2 == 0 ? "unknown" : "webgpu";
       Pcg32 random(21, 5);
       const Scene scene = scene_of(random, 40);
-      const ProgramBounds bounds(scene, pipeline_of(model(name)), Profile{}.arithmetic);
+      const ProgramBounds bounds(scene, pipeline_of(model(name)), profile_named(profile)->arithmetic);
       ProgramBounds::Block block;
       ProgramBounds::Registers registers;
       std::vector<uint32_t> lights(scene.lights.size());
@@ -218,7 +223,7 @@ TEST_CASE("Light programs judged in lanes have the lights and branches of one by
         bounds.at(asked, lights, block, together);
         for (size_t i = 0; i < asked.size(); ++i) {
           const LitRange alone = bounds.at(surfaces[i], lights, registers);
-          INFO(name << " on " << target << ", surface " << i);
+          INFO(name << " of " << profile << " on " << target << ", surface " << i);
           REQUIRE(together[i].undefined == alone.undefined);
           REQUIRE(together[i].lights_low == alone.lights_low);
           REQUIRE(together[i].lights_high == alone.lights_high);

@@ -6,9 +6,9 @@
 #include <numeric>
 #include <string>
 
+#include "core/simd/simd_target.h"
 #include "judge/bounds/profile.h"
 #include "judge/bounds/program_bounds.h"
-#include "core/simd/simd_target.h"
 #include "scenes/builtin/pcg32.h"
 #include "tests/catch.hpp"
 
@@ -83,14 +83,19 @@ ShadedSurface surface_of(Pcg32& random, bool at_origin, bool exact) {
   return s;
 }
 
-/// Lights and a model at random, ready for any surface; a quarter with extents, a quarter by ideal arithmetic.
+/// Lights and a model at random, ready for any surface; a quarter with extents, a quarter by ideal arithmetic, a
+/// quarter by WGSL's.
 struct RandomLights {
   explicit RandomLights(Pcg32& random)
       : scene(scene_of(random)),
         pipeline(pipeline_of(random)),
-        bounds(scene, pipeline, profile_named(random.below(4) == 0 ? "ideal" : "unknown")->arithmetic),
+        bounds(scene, pipeline, arithmetic_of(random)),
         all(scene.lights.size()) {
     std::iota(all.begin(), all.end(), 0u);
+  }
+  static Arithmetic arithmetic_of(Pcg32& random) {
+    const uint32_t which = random.below(4);
+    return profile_named(which == 0 ? "ideal" : which == 1 ? "webgpu" : "unknown")->arithmetic;
   }
   static Pipeline pipeline_of(Pcg32& random) {
     Pipeline p;

@@ -72,10 +72,24 @@ double LooseProgram::sum(NodeId id) {
 
 double LooseProgram::logarithm(double x) {
   const double exact = std::log2(x);
-  return x >= 0.5 && x <= 2 ? rounded(exact + 0x1p-21 * 0.98 * random_.between(-1, 1)) : off(exact, 2.9 * kUlp);
+  return x >= 0.5 && x <= 2 ? rounded(exact + 0x1p-21 * 0.98 * random_.between(-1, 1))
+                            : off(exact, (2.9 + more_) * kUlp);
 }
 
-double LooseProgram::exponential(double x) { return off(std::exp2(x), (2.9 + 2 * std::fabs(x)) * kUlp); }
+double LooseProgram::exponential(double x) { return off(std::exp2(x), (2.9 + more_ + 2 * std::fabs(x)) * kUlp); }
+
+double LooseProgram::quotient(double x, double y) { return off(x / y, (2.4 + more_) * kUlp); }
+
+double LooseProgram::inverse_root(double x) { return off(1 / std::sqrt(x), (1.9 + more_) * kUlp); }
+
+double LooseProgram::root(double x) { return more_ > 0 ? quotient(1, inverse_root(x)) : off(std::sqrt(x), 4.4 * kUlp); }
+
+/// What normalize() is made of: l2 > 0 ? inversesqrt(l2) : 0.
+bool LooseProgram::normalizes(const programs::ProgramNode& node) const {
+  const programs::ProgramNode& otherwise = program_.nodes[node.operand[2]];
+  return program_.nodes[node.operand[1]].op == Op::f_inverse_sqrt && otherwise.op == Op::constant &&
+         otherwise.bits == 0;
+}
 
 double LooseProgram::compute(NodeId id) {
   const programs::ProgramNode& node = program_.nodes[id];
@@ -88,11 +102,11 @@ double LooseProgram::compute(NodeId id) {
     case Op::f_mul:
       return rounded(a * b);
     case Op::f_div:
-      return off(a / b, 2.4 * kUlp);
+      return quotient(a, b);
     case Op::f_sqrt:
-      return off(std::sqrt(a), 4.4 * kUlp);
+      return root(a);
     case Op::f_inverse_sqrt:
-      return off(1 / std::sqrt(a), 1.9 * kUlp);
+      return inverse_root(a);
     case Op::f_floor:
       return std::floor(a);
     case Op::f_neg:
@@ -115,6 +129,8 @@ double LooseProgram::compute(NodeId id) {
     case Op::f_le:
       return a <= b;
     case Op::select:
+      if (a != 0 && more_ > 0 && normalizes(node))
+        return quotient(1, root(value(program_.nodes[node.operand[1]].operand[0])));
       return a != 0 ? b : value(node.operand[2]);
     case Op::b_and:
       return a != 0 && b != 0;
@@ -132,12 +148,13 @@ double LooseProgram::compute(NodeId id) {
     case Op::exp2:
       return exponential(a);
     case Op::exp:
-      return off(std::exp(a), (2.9 + 2 * std::fabs(a)) * kUlp);
+      return off(std::exp(a), (2.9 + more_ + 2 * std::fabs(a)) * kUlp);
     case Op::log2:
       return logarithm(a);
     case Op::log:
-      return rounded(std::log(a) + (a >= 0.5 && a <= 2 ? 0x1p-21 * 0.98 : 2.9 * kUlp * std::fabs(std::log(a))) *
-                                       random_.between(-1, 1));
+      return rounded(std::log(a) +
+                     (a >= 0.5 && a <= 2 ? 0x1p-21 * 0.98 : (2.9 + more_) * kUlp * std::fabs(std::log(a))) *
+                         random_.between(-1, 1));
     case Op::pow:
       return a == 0 ? 0 : exponential(rounded(b * logarithm(a)));
     case Op::sin:
