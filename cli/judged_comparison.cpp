@@ -14,7 +14,9 @@
 #include "scenes/pipeline/fit_lights.h"
 #include "scenes/pipeline/light_model.h"
 #include "scenes/pipeline/presets.h"
+#include "scenes/pipeline/shipped_models.h"
 #include "shading/frame.h"
+#include "shading/program/program_frame.h"
 
 namespace trueshade {
 namespace {
@@ -95,8 +97,11 @@ class SceneJudge {
     validate(v_.pipeline);
     if (v_.pipeline.view != ImageView::lit || v_.pipeline.post.active())
       throw not_judged("a view, and a picture behind a post chain, have no legal sets");
-    if (v_.pipeline.light_program.used()) throw not_judged("a light program is not in the picture's file: validate takes its file");
-    fit_lights_of_ours(scene_, v_.pipeline.light_model);
+    give_text(v_.pipeline.light_program);
+    if (v_.pipeline.light_program.used() && v_.pipeline.light_program.text.empty())
+      throw not_judged("a light program is not in the picture's file: validate takes its file");
+    fit_lights_of_ours(scene_, v_.pipeline);
+    v_.pipeline = with_planes_of_program(v_.pipeline);
     constexpr uint64_t kPixel = 480;  // bytes, as of validate
     check_memory(scene_, v_.pipeline, {}, {}, uint64_t(v_.pipeline.width) * uint64_t(v_.pipeline.height) * kPixel);
   }

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <numeric>
 
-#include "scenes/light_models/light_models.h"
+#include "scenes/pipeline/shipped_models.h"
 #include "view/window/panels.h"
 
 namespace trueshade::viewer {
