@@ -147,6 +147,14 @@ std::string stand_in_line(const Scene& scene, const Pipeline& pipeline) {
          ", glTF's own light model: It is a light program, and this build has none, because it found no glslang";
 }
 
+/// Where a text's light model has taken the place of the program that the preset draws by.
+std::string no_program_line(const Pipeline& pipeline) {
+  const std::optional<Pipeline> row = preset_pipeline(pipeline.preset);
+  if (!row || !row->light_program.used() || pipeline.light_program.used()) return {};
+  return "Drawn by the light_model that the pipeline states, in place of the light program of the preset " +
+         pipeline.preset;
+}
+
 }  // namespace
 
 Notes notes_of(const Scene& scene, const Pipeline& pipeline) {
@@ -159,7 +167,7 @@ Notes notes_of(const Scene& scene, const Pipeline& pipeline) {
   for (std::string line :
        {boxes ? boxes_line(scene, pipeline.view) : std::string(), boxes ? eye_in_boxes_line(scene) : std::string(),
         pipeline.view == ImageView::uv ? uv_line(scene) : std::string(), lost_volumes_line(scene, pipeline),
-        by_program ? cut_line(scene, pipeline) : std::string(), stand_in_line(scene, pipeline)})
+        by_program ? cut_line(scene, pipeline) : std::string(), stand_in_line(scene, pipeline), no_program_line(pipeline)})
     if (!line.empty()) notes.lines.push_back(std::move(line));
   return notes;
 }
