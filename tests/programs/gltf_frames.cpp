@@ -95,22 +95,22 @@ TEST_CASE("Frames of the preset gltf have the oracle's bits at pixels all over e
     pipeline.target = Format::rgba16f;
     oracle::SpirvScalars inputs = no_inputs();
     inputs["TsView.ts_view.eye"] = words_of(scene.camera.eye);
-    const int step = scene.lights.size() > 100 ? 23 : 7;
-    int compared = 0, apart = 0, rounded = 0, bright = 0;
+    const int step = scene.lights.size() > 100 ? 29 : 11;
+    int compared = 0, lit = 0, apart = 0, rounded = 0;
     for (int y = 3; y < pipeline.height; y += step)
       for (int x = 3; x < pipeline.width; x += step) {
         if (stored.aovs[5].image.code(x, y, 0) == 0) continue;
         set_surface(stored, x, y, inputs);
         const glm::vec3 expected = expected_at(module, scene, inputs);
-        ++compared, bright += expected.y > 0.001f;
+        ++compared, lit += expected.y > 0.0f;
         for (int c = 0; c < 3; ++c) {
           apart += bits_of(float(frame.color.value(x, y, c))) != bits_of(expected[c]);
           rounded += stored.color.code(x, y, c) != half_from_float(expected[c], pipeline.gbuffer.half_round);
         }
       }
-    CAPTURE(name, compared, bright);
+    CAPTURE(name, compared, lit);
     CHECK(compared > 10);
-    CHECK(bright > compared / 4);
+    CHECK(lit > compared / 2);
     CHECK(apart == 0);
     CHECK(rounded == 0);
   }
