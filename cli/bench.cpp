@@ -147,7 +147,7 @@ SceneTime measured(const BenchOptions& options, const std::string& spec, const E
   SceneTime result;
   result.scene = scene.spec;
   result.pipeline = pipeline_of(options_of(options, spec), scene);
-  fit_lights_of_ours(scene, result.pipeline.light_model);
+  fit_lights_of_ours(scene, result.pipeline);
   result.notes = notes_of(scene, result.pipeline);
   check_memory(scene, result.pipeline, execution, {});
   const PreparedScene prepared(scene);

@@ -191,7 +191,7 @@ void explain(const ExplainOptions& options) {
   Pipeline pipeline = pipeline_of(options, scene);
   const bool other_view = pipeline.view != ImageView::lit;
   pipeline.view = ImageView::lit;
-  fit_lights_of_ours(scene, pipeline.light_model);
+  fit_lights_of_ours(scene, pipeline);
   if (options.x >= pipeline.width || options.y >= pipeline.height)
     throw Error(ErrorKind::usage, "--pixel",
                 std::to_string(options.x) + ',' + std::to_string(options.y) + " is not in the picture, which is " +

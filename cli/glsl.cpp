@@ -48,7 +48,7 @@ void write_glsl(const GlslFilesOptions& asked) {
     set_time(*scene, asked.time);
   }
   const Pipeline pipeline = pipeline_of(asked, scene ? *scene : Scene{});
-  if (scene) fit_lights_of_ours(*scene, pipeline.light_model);
+  if (scene) fit_lights_of_ours(*scene, pipeline);
   oracle::GlslOptions options = scene ? options_of_scene(*scene) : options_without_scene(asked, pipeline);
   options.version = oracle::version_of(asked.api);
   if (asked.api == oracle::ShaderApi::es31) options.primitive = false;

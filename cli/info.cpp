@@ -118,7 +118,7 @@ void resolve(const InfoOptions& options) {
   check_pipeline(options);
   Scene scene = scene_of_options(options.file, options.limits);
   const Pipeline pipeline = pipeline_of(options, scene);
-  fit_lights_of_ours(scene, pipeline.light_model);
+  fit_lights_of_ours(scene, pipeline);
   set_time(scene, options.time);
   if (options.folder.empty())
     print_resolved(scene, pipeline, options.time);

@@ -14,7 +14,9 @@
 #include "scenes/pipeline/fit_lights.h"
 #include "scenes/pipeline/light_model.h"
 #include "scenes/pipeline/presets.h"
+#include "scenes/pipeline/shipped_models.h"
 #include "shading/frame.h"
+#include "shading/program/program_frame.h"
 
 namespace trueshade {
 namespace {
@@ -88,15 +90,22 @@ class SceneJudge {
                              *const pipeline = metadata_value(pictures_.reference, "trueshade:pipeline");
     if (hash == nullptr || pipeline == nullptr) throw not_judged("its hash or its pipeline is not named");
     scene_ = named_scene(*spec, pictures_.reference.path, options_.limits);
+    v_.pipeline = pipeline_from_json(*pipeline, "the reference's pipeline", default_pipeline(scene_));
+    try {
+      give_text(v_.pipeline.light_program);
+    } catch (const Error& error) {
+      throw not_judged(error.what());
+    }
+    validate(v_.pipeline);
+    fit_lights_of_ours(scene_, v_.pipeline);
     if ("sha256:" + scene_hash(scene_) != *hash)
       throw not_judged(scene_.spec + " is another scene today: its hash is not the one that the reference names");
     set_time(scene_, time_of(pictures_.reference));
-    v_.pipeline = pipeline_from_json(*pipeline, "the reference's pipeline", default_pipeline(scene_));
-    validate(v_.pipeline);
     if (v_.pipeline.view != ImageView::lit || v_.pipeline.post.active())
       throw not_judged("a view, and a picture behind a post chain, have no legal sets");
-    if (v_.pipeline.light_program.used()) throw not_judged("a light program is not in the picture's file: validate takes its file");
-    fit_lights_of_ours(scene_, v_.pipeline.light_model);
+    if (v_.pipeline.light_program.used() && v_.pipeline.light_program.text.empty())
+      throw not_judged("a light program is not in the picture's file: validate takes its file");
+    v_.pipeline = with_planes_of_program(v_.pipeline);
     constexpr uint64_t kPixel = 480;  // bytes, as of validate
     check_memory(scene_, v_.pipeline, {}, {}, uint64_t(v_.pipeline.width) * uint64_t(v_.pipeline.height) * kPixel);
   }

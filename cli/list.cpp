@@ -11,11 +11,11 @@
 #include "judge/diagnosis/finding.h"
 #include "programs/front/light_outline.h"
 #include "scenes/builtin/builtin.h"
-#include "scenes/light_models/light_models.h"
 #include "scenes/light_models/stated_model.h"
 #include "scenes/pipeline/parameter_ranges.h"
 #include "scenes/pipeline/presets.h"
 #include "scenes/pipeline/program_inputs.h"
+#include "scenes/pipeline/shipped_models.h"
 #include "shading/frame.h"
 
 namespace trueshade {
@@ -106,9 +106,12 @@ std::string glsl_type(programs::Type type, size_t components) {
   return components == 1 ? kScalar[size_t(type)] : kVector[size_t(type)] + std::to_string(components);
 }
 
-/// The program of a preset's light model, of a model that ships, or of a file.
+/// The program of a preset's light model, of a model that ships, or of a file. A preset that draws by a model that ships
+/// has that one's name.
 void find_program(const std::string& name, ProgramFacts& facts) {
-  const auto preset = std::find_if(presets().begin(), presets().end(), [&](const Preset& p) { return p.name == name; });
+  const auto preset = std::find_if(presets().begin(), presets().end(), [&](const Preset& p) {
+    return p.name == name && !p.pipeline.light_program.used();
+  });
   if (preset == presets().end()) {
     facts.program = light_program_of(name);
     if (names_shipped_model(name)) facts.about = shipped_model(name).about;

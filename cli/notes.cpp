@@ -131,12 +131,35 @@ std::string uv_line(const Scene& scene) {
          " in black: Their meshes have no texture coordinates, so that u and v are 0";
 }
 
+/// What no stage reads. Of a light program nothing is known but that of a preset, whose light model reads the same.
+std::vector<IgnoredField> ignored_by(const Scene& scene, const Pipeline& pipeline) {
+  if (!pipeline.light_program.used()) return ignored_fields(scene, pipeline);
+  if (!draws_by_its_preset(pipeline)) return {};
+  Pipeline stated = pipeline;
+  stated.light_model = preset_pipeline(pipeline.preset)->light_model;
+  return ignored_fields(scene, stated);
+}
+
+/// Where a build without light programs draws a photometric scene.
+std::string stand_in_line(const Scene& scene, const Pipeline& pipeline) {
+  if (draws_light_programs() || !scene.photometric || pipeline.preset != default_pipeline(scene).preset) return {};
+  return "Drawn by the preset " + pipeline.preset + " in place of " + default_pipeline(scene, true).preset +
+         ", glTF's own light model: It is a light program, and this build has none, because it found no glslang";
+}
+
+/// Where a text's light model has taken the place of the program that the preset draws by.
+std::string no_program_line(const Pipeline& pipeline) {
+  const std::optional<Pipeline> row = preset_pipeline(pipeline.preset);
+  if (!row || !row->light_program.used() || pipeline.light_program.used()) return {};
+  return "Drawn by the light_model that the pipeline states, in place of the light program of the preset " +
+         pipeline.preset;
+}
+
 }  // namespace
 
 Notes notes_of(const Scene& scene, const Pipeline& pipeline) {
-  // What a light program reads is what it says; the preset's own formula is not asked.
   const bool by_program = pipeline.light_program.used();
-  Notes notes{by_program ? std::vector<IgnoredField>() : ignored_fields(scene, pipeline), scene.notes};
+  Notes notes{ignored_by(scene, pipeline), scene.notes};
   for (const IgnoredField& field : notes.ignored) notes.lines.push_back(line_of(scene, field));
   if (const uint64_t materials = implausible_reflectances(scene); materials > 0)
     notes.lines.push_back(reflectance_line(materials));
@@ -144,7 +167,7 @@ Notes notes_of(const Scene& scene, const Pipeline& pipeline) {
   for (std::string line :
        {boxes ? boxes_line(scene, pipeline.view) : std::string(), boxes ? eye_in_boxes_line(scene) : std::string(),
         pipeline.view == ImageView::uv ? uv_line(scene) : std::string(), lost_volumes_line(scene, pipeline),
-        by_program ? cut_line(scene, pipeline) : std::string()})
+        by_program ? cut_line(scene, pipeline) : std::string(), stand_in_line(scene, pipeline), no_program_line(pipeline)})
     if (!line.empty()) notes.lines.push_back(std::move(line));
   return notes;
 }

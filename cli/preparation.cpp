@@ -13,9 +13,9 @@
 #include "core/standard_input.h"
 #include "scenes/files/content/scene_files.h"
 #include "scenes/json/json_value.h"
-#include "scenes/light_models/light_models.h"
 #include "scenes/pipeline/presets.h"
 #include "scenes/pipeline/program_inputs.h"
+#include "scenes/pipeline/shipped_models.h"
 #include "shading/frame_memory.h"
 #include "shading/output/derived_planes.h"
 #include "shading/output/target.h"
@@ -105,25 +105,26 @@ ProgramParameter parameter_of(const std::string& text) {
 
 namespace {
 
-/// The program of --light-shader, or a model that the pipeline names. Where the pipeline says which text, it must be
+/// The program of --light-shader, or the one that the pipeline has. Where a pipeline's JSON says which text, it must be
 /// that.
 void set_light_program(const PipelineOptions& options, LightProgram& program) {
-  const bool model_of_pipeline = !options.light_shader && program.used() && names_shipped_model(program.file);
-  if (!options.light_shader && !model_of_pipeline) {
-    if (!options.light_parameters.empty())
-      throw Error(ErrorKind::usage, "--light-parameter", "there is no light program", "add --light-shader FILE");
-    if (program.used())
-      throw Error(ErrorKind::usage, "light_program", "the pipeline names " + program.file + ", whose text is not here",
-                  "add --light-shader FILE");
-    return;
+  if (options.light_shader) {
+    LightProgram named = light_program_of(*options.light_shader);
+    const bool is_stated = program.text.empty();  // in JSON, and no preset's
+    if (is_stated && !program.sha256.empty() && program.sha256 != named.sha256)
+      throw Error(ErrorKind::bad_input, named.file, "is not the light program that the pipeline names",
+                  "the file whose SHA-256 is " + program.sha256);
+    named.parameters = std::move(program.parameters);
+    program = std::move(named);
   }
-  LightProgram named = model_of_pipeline ? shipped_program(program.file) : light_program_of(*options.light_shader);
-  if (!program.sha256.empty() && program.sha256 != named.sha256)
-    throw Error(ErrorKind::bad_input, named.file, "is not the light program that the pipeline names",
-                "the file whose SHA-256 is " + program.sha256);
-  named.parameters = std::move(program.parameters);
-  program = std::move(named);
-  if (!options.light_parameters.empty()) program.parameters.clear();
+  give_text(program);
+  if (program.used() && program.text.empty())
+    throw Error(ErrorKind::usage, "light_program", "the pipeline names " + program.file + ", whose text is not here",
+                "add --light-shader FILE");
+  if (options.light_parameters.empty()) return;
+  if (!program.used())
+    throw Error(ErrorKind::usage, "--light-parameter", "there is no light program", "add --light-shader FILE");
+  program.parameters.clear();
   for (const std::string& text : options.light_parameters) program.parameters.push_back(parameter_of(text));
 }
 

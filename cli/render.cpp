@@ -65,7 +65,7 @@ SceneToRender::SceneToRender(const RenderOptions& options, const Execution& exec
   if (options.resume && (!is_streamed(options, pipeline) || options.outputs.empty() || options.frames))
     throw Error(ErrorKind::usage, "--resume", "one large picture that goes into files can be gone on with",
                 "leave it out: a picture over 16384 pixels a side, or of more than 67108864, is large");
-  fit_lights_of_ours(scene, pipeline.light_model);
+  fit_lights_of_ours(scene, pipeline);
   if (is_streamed(options, pipeline)) return;  // its bands are as high as memory allows
   validate_drawn_size(pipeline, options.execution.region);
   check_memory(scene, pipeline, execution, planes_to_render(options), memory_besides_frame(options, pipeline));

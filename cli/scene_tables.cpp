@@ -1,7 +1,7 @@
 // The tables of commands that tell of scenes and write them for others: info, list, glsl, export.
 #include "cli/command_tables.h"
 #include "cli/option_values.h"
-#include "scenes/light_models/light_models.h"
+#include "scenes/pipeline/shipped_models.h"
 
 namespace trueshade {
 namespace {

@@ -67,7 +67,7 @@ void shade(const ShadeOptions& options) {
   set_time(scene, options.time);
   Pipeline pipeline = pipeline_of(options, scene);
   pipeline.width = files.width(), pipeline.height = files.height();
-  fit_lights_of_ours(scene, pipeline.light_model);
+  fit_lights_of_ours(scene, pipeline);
   check_memory(scene, pipeline, execution_of(options), {}, file_memory(pipeline, {}, options.outputs, {}));
   const StoredPlanes planes = planes_to_light(options, files, scene, pipeline);
   files = {};

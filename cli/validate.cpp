@@ -149,7 +149,7 @@ bool judge_opengl(const ValidationOptions& options) {
   Scene scene = scene_of_options(options.scene, options.limits);
   set_time(scene, options.time);
   const Pipeline asked = pipeline_of(options, scene);
-  fit_lights_of_ours(scene, asked.light_model);
+  fit_lights_of_ours(scene, asked);
   v.pipeline = with_planes_of_program(asked);
   if (files && !options.size) v.pipeline.width = files->width(), v.pipeline.height = files->height();
   check_memory(scene, v.pipeline, {}, {}, judging_memory(options, v.pipeline));

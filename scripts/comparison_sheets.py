@@ -182,7 +182,7 @@ def damped(folder, preset, scene, table=DAMPING):
     value = table.get(preset, (1, 1, 1))[scene]
     path = os.path.join(folder, f"{preset}_{value}.json")
     with open(path, "w") as file:
-        json.dump({"light_model": {"damping": value}}, file)
+        json.dump({"light_model": {"damping": value}} if value != 1 else {}, file)
     return path
 
 

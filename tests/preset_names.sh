@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$1"
 # scenes/pipeline/pipeline.h: the name of the row that the default values are.
-found=$(grep -rnE '"(many-lights|touchdesigner|light-volumes(-literal)?|redsdk|gl-fixed|punctual)"' \
+found=$(grep -rnE '"(many-lights|touchdesigner|light-volumes(-literal)?|redsdk|gl-fixed|punctual|gltf)"' \
   core scenes raster shading oracle judge gl --include='*.h' --include='*.cpp' |
   grep -vE '^scenes/pipeline/(presets\.cpp|pipeline\.h):' || true)
 [[ -z $found ]] && exit 0

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "scenes/pipeline/fit_lights.h"
-
 namespace trueshade::viewer {
 
 EditedScene::EditedScene(Scene loaded)
@@ -22,13 +20,13 @@ void EditedScene::change_lights(const ViewState& state) {
   scene_.timeline.orbits = orbits_;
   scene_.timeline.node_lights = node_lights_;
   trueshade::change_lights(scene_, state.changes);
-  fit_lights_of_ours(scene_, state.pipeline.light_model);
+  fit_lights_of_ours(scene_, state.pipeline);
   changes_ = state.changes;
-  fitted_to_ = state.pipeline.light_model.falloff;
+  fitted_to_ = fit_of(state.pipeline);
 }
 
 void EditedScene::show(const ViewState& state) {
-  if (changes_ != state.changes || fitted_to_ != state.pipeline.light_model.falloff) {
+  if (changes_ != state.changes || fitted_to_ != fit_of(state.pipeline)) {
     time_.reset();
     change_lights(state);
   }

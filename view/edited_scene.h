@@ -2,6 +2,7 @@
 #include <optional>
 #include <vector>
 
+#include "scenes/pipeline/fit_lights.h"
 #include "shading/frame.h"
 #include "view/view_state.h"
 
@@ -35,7 +36,7 @@ class EditedScene {
   Camera moved_camera_;
   PreparedScene prepared_;
   std::optional<std::vector<LightChange>> changes_;  // that the lights have now
-  Falloff fitted_to_{};                              // what lights of ours are fitted to now
+  LightFit fitted_to_;                               // what lights of ours are fitted to now
   std::optional<double> time_;                       // that the scene stands at
 };
 

@@ -4,7 +4,7 @@
 
 #include "cli/frame_text.h"
 #include "core/image_files/image_io.h"
-#include "scenes/light_models/light_models.h"
+#include "scenes/pipeline/shipped_models.h"
 #include "view/saved_scene.h"
 
 namespace trueshade::viewer {

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "core/error.h"
-#include "scenes/light_models/light_models.h"
 #include "scenes/pipeline/presets.h"
 #include "scenes/pipeline/program_inputs.h"
+#include "scenes/pipeline/shipped_models.h"
 #include "view/saved_files.h"
 
 namespace trueshade::viewer {
@@ -53,8 +53,12 @@ void Session::set_preset(std::string_view name) {
   Pipeline pipeline = *preset_pipeline(name);
   pipeline.width = state_.pipeline.width, pipeline.height = state_.pipeline.height;
   pipeline.view = state_.pipeline.view;
-  pipeline.light_program = state_.pipeline.light_program;
-  if (pipeline.light_program.used()) pipeline.light_volumes = state_.pipeline.light_volumes;
+  if (draws_by_its_preset(state_.pipeline)) {
+    use_program(pipeline.light_program);
+  } else {  // a model that the user has chosen stays
+    pipeline.light_program = state_.pipeline.light_program;
+    if (pipeline.light_program.used()) pipeline.light_volumes = state_.pipeline.light_volumes;
+  }
   set_pipeline(pipeline);
 }
 
@@ -286,7 +290,10 @@ void Session::reload() {
 void Session::take_over(SceneFacts facts) {
   Pipeline base = facts.pipeline;
   base.width = base_pipeline_.width, base.height = base_pipeline_.height;
-  base.light_program = base_pipeline_.light_program;              // which is loaded by itself
+  if (draws_by_its_preset(base) && draws_by_its_preset(base_pipeline_))
+    use_program(base.light_program);
+  else
+    base.light_program = base_pipeline_.light_program;  // which is loaded by itself
   if (state_.pipeline == base_pipeline_) state_.pipeline = base;  // the user has not changed it
   base_pipeline_ = base;
   std::erase_if(state_.changes, [&](const LightChange& change) { return change.light >= facts.lights.size(); });

@@ -108,6 +108,7 @@ class Session {
   void receive();
   void watch_files();
   void use(ReadyModel model);
+  void use_program(const LightProgram& program);
   void reload_model();
   void take_model(ReadyModel model);
   std::string written(const std::function<std::string()>& write);

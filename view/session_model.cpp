@@ -19,11 +19,17 @@ void Session::use(ReadyModel model) {
   ++model_revision_;
 }
 
+void Session::use_program(const LightProgram& program) {
+  if (program != state_.pipeline.light_program) use(program.used() ? ready_model(program) : ReadyModel());
+}
+
+/// The model of that name; without, what the preset draws by.
 void Session::set_model(const std::string& name) {
-  ReadyModel model = name.empty() ? ReadyModel() : ready_model(light_program_of(name));
+  const std::optional<Pipeline> preset = preset_pipeline(state_.pipeline.preset);
+  const LightProgram program = !name.empty() ? light_program_of(name) : preset ? preset->light_program : LightProgram();
+  ReadyModel model = program.used() ? ready_model(program) : ReadyModel();
   LightVolumes& volumes = state_.pipeline.light_volumes;
-  if (const std::optional<Pipeline> preset = preset_pipeline(state_.pipeline.preset); preset)
-    volumes.point = preset->light_volumes.point, volumes.spot = preset->light_volumes.spot;
+  if (preset) volumes.point = preset->light_volumes.point, volumes.spot = preset->light_volumes.spot;
   if (!name.empty()) end_at_range(volumes);
   use(std::move(model));
   broken_model_.reset();

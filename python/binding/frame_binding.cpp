@@ -85,7 +85,7 @@ PythonFrame render(const std::shared_ptr<PythonScene>& scene, const py::object& 
   const PythonScene::Reading reading(*scene);
   Frame frame;
   run_interruptible([&](const auto& watch) {
-    const auto prepared = scene->prepared(p.light_model);
+    const auto prepared = scene->prepared(p);
     frame = render_frame(*prepared, p, execution, names, [&](int, int) { watch(); });
   });
   return shared(std::move(frame), p, scene, scene->version());
@@ -134,7 +134,7 @@ PythonFrame shade(const std::shared_ptr<PythonScene>& scene, const py::dict& pla
   Frame frame;
   run_interruptible([&](const auto& watch) {
     validate(scene->values());
-    const FittedScene fitted(scene->values(), p.light_model);
+    const FittedScene fitted(scene->values(), p);
     frame = light_surfaces(fitted.values(), p, execution, given, [&](int, int) { watch(); });
   });
   return shared(std::move(frame), p, scene, scene->version());

@@ -66,7 +66,7 @@ py::object validate_image(PythonScene& scene, const py::object& image, const py:
     options.begins = [&](const char*) { watch(); };
     validate(scene.values());
     store_as(p, capture);
-    const FittedScene fitted(scene.values(), p.light_model);
+    const FittedScene fitted(scene.values(), p);
     if (mask_file)
       capture.mask = judged_mask({mask_file->path, {}, "pass allow_mask=True", allow_mask}, &*mask_file,
                                  fitted.values(), p, capture);
@@ -81,7 +81,7 @@ py::object explain_pixel(PythonScene& scene, int x, int y, const py::object& pip
   std::string account;
   run_interruptible([&](const auto&) {
     validate(scene.values());
-    const FittedScene fitted(scene.values(), p.light_model);
+    const FittedScene fitted(scene.values(), p);
     const ExplainedFrame frame(fitted.values(), p);
     account = account_json(account_of(frame, history_of(frame, x, y), everything ? Detail::all : Detail::usual));
   });

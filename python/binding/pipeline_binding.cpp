@@ -6,9 +6,9 @@
 #include "python/binding/bindings.h"
 #include "python/binding/python_pipeline.h"
 #include "python/binding/python_scene.h"
-#include "scenes/light_models/light_models.h"
 #include "scenes/pipeline/presets.h"
 #include "scenes/pipeline/program_inputs.h"
+#include "scenes/pipeline/shipped_models.h"
 
 namespace trueshade::python {
 namespace {
@@ -103,6 +103,7 @@ Pipeline PythonPipeline::over(const Scene& scene) const {
   if (!named.empty()) p = pipeline_from_json(named, "pipeline", p);
   if (size) p.width = (*size)[0], p.height = (*size)[1];
   if (light_program.used()) p.light_program = light_program;
+  give_text(p.light_program);
   validate(p);
   return p;
 }

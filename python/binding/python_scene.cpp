@@ -40,14 +40,14 @@ std::string PythonScene::hash() {
   return hash_;
 }
 
-std::shared_ptr<const PreparedScene> PythonScene::prepared(const LightModel& model) {
-  if (scene_.lights_of_ours) {  // their brightness depends on the light model, so the frame gets a copy of the scene
+std::shared_ptr<const PreparedScene> PythonScene::prepared(const Pipeline& pipeline) {
+  if (scene_.lights_of_ours) {  // their brightness depends on the pipeline, so the frame gets a copy of the scene
     struct Owned {
       FittedScene scene;
       PreparedScene prepared;
-      Owned(const Scene& of, const LightModel& with) : scene(of, with), prepared(scene.values()) {}
+      Owned(const Scene& of, const Pipeline& with) : scene(of, with), prepared(scene.values()) {}
     };
-    const auto owned = std::make_shared<Owned>(scene_, model);
+    const auto owned = std::make_shared<Owned>(scene_, pipeline);
     return {owned, &owned->prepared};
   }
   const std::lock_guard lock(mutex_);
@@ -61,10 +61,10 @@ std::shared_ptr<const PreparedScene> PythonScene::prepared(const LightModel& mod
   return prepared_;
 }
 
-FittedScene::FittedScene(const Scene& scene, const LightModel& model) : scene_(scene) {
+FittedScene::FittedScene(const Scene& scene, const Pipeline& pipeline) : scene_(scene) {
   if (!scene.lights_of_ours) return;
   copy_ = scene;
-  fit_lights_of_ours(*copy_, model);
+  fit_lights_of_ours(*copy_, pipeline);
 }
 
 }  // namespace trueshade::python

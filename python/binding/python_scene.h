@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/pipeline/light_model.h"
+#include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
 
@@ -28,9 +28,9 @@ class PythonScene {
   /// `sha256:` and the hash of all values; computed once a version.
   std::string hash();
 
-  /// The scene with its meshes split into clusters, for frames of that light model; made once while the scene stays as
+  /// The scene with its meshes split into clusters, for frames of that pipeline; made once while the scene stays as
   /// it is, so that the next frame need not. May be called by several threads.
-  std::shared_ptr<const PreparedScene> prepared(const LightModel& model);
+  std::shared_ptr<const PreparedScene> prepared(const Pipeline& pipeline);
 
   /// The samplers of the textures that came from arrays, by their indices.
   std::vector<Sampler>& samplers() { return samplers_; }
@@ -60,11 +60,11 @@ class PythonScene {
   std::vector<Sampler> samplers_;
 };
 
-/// The scene as frames of that light model are drawn from it: lights of ours fit the model, those of others stay.
+/// The scene as frames of that pipeline are drawn from it: lights of ours fit it, those of others stay.
 /// Borrows the scene, unless it needs another one.
 class FittedScene {
  public:
-  FittedScene(const Scene& scene, const LightModel& model);
+  FittedScene(const Scene& scene, const Pipeline& pipeline);
   const Scene& values() const { return copy_ ? *copy_ : scene_; }
 
  private:

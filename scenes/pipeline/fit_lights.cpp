@@ -1,17 +1,28 @@
 #include "scenes/pipeline/fit_lights.h"
 
+#include <algorithm>
+
 #include "core/fp_env.h"
+#include "scenes/json/json_value.h"
 #include "scenes/lights_of_ours.h"
+#include "scenes/trig.h"
 
 namespace trueshade {
 
-void fit_lights_of_ours(Scene& scene, const LightModel& model) {
+LightFit fit_of(const Pipeline& pipeline) {
+  const bool spreads = pipeline.light_model.falloff == Falloff::inverse_square;
+  return {spreads, spreads && pipeline.light_program.used()};
+}
+
+void fit_lights_of_ours(Scene& scene, const Pipeline& pipeline) {
   const FpScope fp;
-  const bool spreads = model.falloff == Falloff::inverse_square;
-  if (!scene.lights_of_ours || spreads == scene.photometric) return;
+  const LightFit fit = fit_of(pipeline), made_for{scene.photometric, false};
+  if (!scene.lights_of_ours || fit == made_for) return;
   for (Light& light : scene.lights) {
-    const double more = spread_light(light);
-    light.color = glm::vec3(glm::dvec3(light.color) * (spreads ? more : 1.0 / more));
+    double gain = fit.divides_pi && light.type != LightType::ambient ? kPi : 1.0;
+    if (fit.spreads != made_for.spreads) gain = fit.spreads ? gain * spread_light(light) : gain / spread_light(light);
+    for (int c = 0; c < 3; ++c)
+      light.color[c] = float(std::min(double(light.color[c]) * gain, double(json::kLargest)));
   }
 }
 

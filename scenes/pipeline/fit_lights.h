@@ -1,12 +1,21 @@
 #pragma once
-#include "scenes/pipeline/light_model.h"
+#include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 
 namespace trueshade {
 
-/// Makes lights of ours (scenes/lights_of_ours.h) as bright under a light model as under those that their scene was
-/// made for: where light spreads by the inverse square, a lamp has more the farther away it is, so that a model in
-/// millimetres and one in kilometres look the same. Other lights stay.
-void fit_lights_of_ours(Scene& scene, const LightModel& model);
+/// What of a pipeline the brightness of lights of ours depends on.
+struct LightFit {
+  bool spreads = false;      ///< light spreads by the inverse square
+  bool divides_pi = false;   ///< and diffuse light is divided by pi
+  bool operator==(const LightFit&) const = default;
+};
+LightFit fit_of(const Pipeline& pipeline);
+
+/// Makes lights of ours (scenes/lights_of_ours.h) as bright under a pipeline as under those that their scene was made
+/// for. Where light spreads by the inverse square, a lamp has more the farther away it is, so that a model in
+/// millimetres and one in kilometres look the same; where a light program draws so, a lamp has pi times as much, because
+/// programs divide diffuse light by pi and presets do not. Other lights stay.
+void fit_lights_of_ours(Scene& scene, const Pipeline& pipeline);
 
 }  // namespace trueshade

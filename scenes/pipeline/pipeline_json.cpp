@@ -127,6 +127,18 @@ void read_light_program(const json::Node& node, LightProgram& program) {
   }
 }
 
+/// A text that states a light model and no program means to draw by the model: the program of a preset makes room, and so
+/// do the ends that it gives lights. A text that names both that preset and a model says two things.
+void make_room_for_model(const json::Node& node, Pipeline& p) {
+  const bool is_of_preset = !p.light_program.text.empty();  // of a text, no program has its own
+  if (!is_of_preset || !node.find("light_model") || node.find("light_program")) return;
+  if (node.find("preset"))
+    node.fail("light_model beside the preset " + p.preset + ", which draws by a light program and reads none",
+              "another preset, or light_program");
+  p.light_program = {};
+  p.light_volumes.point = p.light_volumes.spot = LightExtent::unbounded;
+}
+
 void read_light_volumes(const json::Node& node, LightVolumes& v) {
   node.check_keys(kPipelineJsonKeys[kLightVolumes]);
   read_choice(node, "point", v.point, kExtents);
@@ -216,6 +228,7 @@ Pipeline pipeline_from_node(const json::Node& node, const Pipeline& base) {
   read_integer(node, "height", p.height, 1, kMostPictureSide);
   if (const auto geometry = node.find("geometry")) read_geometry(*geometry, p.geometry);
   if (const auto gbuffer = node.find("gbuffer")) read_gbuffer(*gbuffer, p.gbuffer);
+  make_room_for_model(node, p);
   if (const auto model = node.find("light_model")) read_light_model(*model, p.light_model);
   if (const auto program = node.find("light_program")) read_light_program(*program, p.light_program);
   if (const auto volumes = node.find("light_volumes")) read_light_volumes(*volumes, p.light_volumes);

@@ -3,6 +3,8 @@
 #include <array>
 
 #include "core/fp_env.h"
+#include "scenes/pipeline/program_inputs.h"
+#include "scenes/pipeline/shipped_models.h"
 
 namespace trueshade {
 namespace {
@@ -118,25 +120,49 @@ Preset redsdk() {
   return {"redsdk", "REDsdk tutorial: Deferred shading using multiple render targets", p};
 }
 
+Preset gltf() {
+  Pipeline p = punctual().pipeline;  // its light model reads the same fields of lights and materials
+  p.preset = "gltf";
+  p.light_program = shipped_program("gltf");
+  end_at_range(p.light_volumes);
+  return {"gltf",
+          "glTF 2.0, appendix B: metals and plastics by GGX, under KHR_lights_punctual; draws by the light model gltf",
+          p};
+}
+
+Pipeline with_back_faces_culled(std::string_view name) {
+  Pipeline pipeline = preset_pipeline(name).value();
+  pipeline.geometry.cull_face = CullFace::back;  // glTF 2.0, "Double Sided"
+  return pipeline;
+}
+
 }  // namespace
 
 std::span<const Preset> presets() {
   const FpScope fp;
-  static const std::array<Preset, 8> rows{many_lights(),   touchdesigner(),         gl_fixed(), punctual(), lecture(),
-                                          light_volumes(), light_volumes_literal(), redsdk()};
+  static const std::array<Preset, 9> rows{many_lights(),   touchdesigner(),         gl_fixed(), punctual(), lecture(),
+                                          light_volumes(), light_volumes_literal(), redsdk(),   gltf()};
   return rows;
 }
 
-const Pipeline& default_pipeline(const Scene& scene) {
+bool draws_light_programs() {
+#ifdef TRUESHADE_LIGHT_PROGRAMS
+  return true;
+#else
+  return false;
+#endif
+}
+
+const Pipeline& default_pipeline(const Scene& scene, bool by_program) {
   const FpScope fp;
-  static const Pipeline photometric = [] {
-    Pipeline pipeline = presets().front().pipeline;
-    for (const Preset& row : presets())
-      if (row.name == "punctual") pipeline = row.pipeline;
-    pipeline.geometry.cull_face = CullFace::back;  // glTF 2.0, "Double Sided"
-    return pipeline;
-  }();
-  return scene.photometric ? photometric : presets().front().pipeline;
+  static const Pipeline program = with_back_faces_culled("gltf"), formula = with_back_faces_culled("punctual");
+  if (!scene.photometric) return presets().front().pipeline;
+  return by_program ? program : formula;
+}
+
+bool draws_by_its_preset(const Pipeline& pipeline) {
+  const std::optional<Pipeline> row = preset_pipeline(pipeline.preset);
+  return row && row->light_program == pipeline.light_program;
 }
 
 std::optional<Pipeline> preset_pipeline(std::string_view name) {

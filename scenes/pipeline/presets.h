@@ -21,8 +21,15 @@ std::span<const Preset> presets();
 /// The pipeline of a preset's row; nothing if the name is unknown.
 std::optional<Pipeline> preset_pipeline(std::string_view name);
 
+/// Whether this build draws by light programs. One that found no glslang does not.
+bool draws_light_programs();
+
 /// The pipeline that a scene starts from where no preset is named: that of the first row, or for a photometric scene
-/// that of the row for candela and lux, with back faces culled: glTF's materials that are not double-sided show none.
-const Pipeline& default_pipeline(const Scene& scene);
+/// that of glTF's own light model, with back faces culled: glTF's materials that are not double-sided show none. That
+/// model is a light program; without, the row of numbers for candela and lux stands in.
+const Pipeline& default_pipeline(const Scene& scene, bool by_program = draws_light_programs());
+
+/// Whether a pipeline's light is that of its preset's row: its program, or none.
+bool draws_by_its_preset(const Pipeline& pipeline);
 
 }  // namespace trueshade

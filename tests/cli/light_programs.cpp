@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/sha256.h"
-#include "scenes/light_models/light_models.h"
+#include "scenes/pipeline/shipped_models.h"
 #include "tests/catch.hpp"
 #include "tests/cli/run_command.h"
 #include "tests/scratch_folder.h"

@@ -91,6 +91,8 @@ TEST_CASE("Maps of materials and unlit surfaces that a pipeline does not read ar
   CHECK(ignored(lamp, "many-lights") == "metallic_roughness_map emission_map occlusion_map occlusion_strength unlit ");
   CHECK(ignored(lamp, "punctual") == "occlusion_strength occlusion_map ");  // glTF has no ambient light
   CHECK(ignored(sky, "punctual") == "occlusion_strength ");
+  CHECK(ignored(lamp, "gltf") == "occlusion_strength occlusion_map ");
+  CHECK(ignored(sky, "gltf") == "occlusion_strength ");
   CHECK(ignored(sky, "gl-fixed") == "metallic_roughness_map occlusion_strength ");
 }
 
@@ -104,7 +106,7 @@ TEST_CASE("A pipeline that reads what a scene states leaves nothing to note, and
   CHECK(has(drawn(folder, {"--hash", "--preset", "gl-fixed"}).err, "1 light states range"));
   CHECK_FALSE(
       has(drawn(folder, {"--hash", "--preset", "redsdk"}).err, "ignored"));  // the extents of the lights read the range
-  for (const char* preset : {"many-lights", "touchdesigner", "gl-fixed", "punctual", "light-volumes"}) {
+  for (const char* preset : {"many-lights", "touchdesigner", "gl-fixed", "punctual", "gltf", "light-volumes"}) {
     INFO(preset);
     CHECK(run_command({"render", "builtin:circle", "--size", "8x8", "--hash", "--preset", preset}).err.empty());
   }

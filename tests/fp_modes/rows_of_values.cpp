@@ -196,6 +196,8 @@ void call_light_model(Bytes& out) {
   Scene scene;
   scene.photometric = true;
   out.put(default_pipeline(scene).light_model.shininess);
+  out.put(draws_light_programs());
+  out.put(draws_by_its_preset(default_pipeline(scene)));
 }
 
 void call_arrays(Bytes& out) {
@@ -258,7 +260,8 @@ constexpr Row kRows[] = {
     {"scenes/pipeline/image_view.h", "view_from_name", call_names},
     {"scenes/pipeline/light_model.h", "reads_specular_plane takes_gloss shows_unlit maps_metals", call_light_model},
     {"scenes/pipeline/light_program.h", "used is_spirv", call_light_program},
-    {"scenes/pipeline/presets.h", "presets preset_pipeline default_pipeline", call_light_model},
+    {"scenes/pipeline/presets.h",
+     "presets preset_pipeline default_pipeline draws_light_programs draws_by_its_preset", call_light_model},
     {"scenes/pipeline/pipeline.h",
      "pipeline_from_json pipeline_json validate name_of blends_lights is_forward surface_planes "
      "made_unit_at_vertex made_unit_at_fragment",

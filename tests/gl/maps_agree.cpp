@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/judge/mutants/surface_mutants.h"
 #include "oracle/matrices.h"
 #include "oracle/texture_lookup.h"
 #include "scenes/builtin/builtin.h"
@@ -12,6 +11,8 @@
 #include "shading/frame.h"
 #include "tests/catch.hpp"
 #include "tests/gl/driver.h"
+#include "tests/judge/mutants/surface_mutants.h"
+#include "tests/stated_presets.h"
 
 using namespace trueshade;
 using namespace trueshade::testing;
@@ -250,7 +251,7 @@ TEST_CASE("Pictures with normal and specular maps are ours in every strategy, un
     const Scene scene = bumpy(name);
     const PreparedScene prepared(scene);
     GlRenderer renderer(*context, scene, 0, &programs);
-    for (const Preset& preset : presets())
+    for (const Preset& preset : stated_presets())
       for (size_t strategy = 0; strategy < std::size(kStrategyNames); ++strategy) {
         Pipeline pipeline = preset.pipeline;
         pipeline.strategy = Strategy(strategy);

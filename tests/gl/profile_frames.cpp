@@ -10,6 +10,7 @@
 #include "tests/catch.hpp"
 #include "tests/gl/driver.h"
 #include "tests/gl/random_states.h"
+#include "tests/stated_presets.h"
 
 using namespace trueshade;
 using namespace trueshade::testing;
@@ -138,7 +139,7 @@ TEST_CASE(
   for (const char* name : {"city,objects=300,lights=30", "cornell"}) {
     const Scene scene = builtin_scene(name);
     GlRenderer renderer(*context, scene, 0, &programs);
-    for (const Preset& preset : presets())
+    for (const Preset& preset : stated_presets())
       for (size_t strategy = 0; strategy < std::size(kStrategyNames); ++strategy) {
         Pipeline pipeline = preset.pipeline;
         pipeline.width = 120, pipeline.height = 90;

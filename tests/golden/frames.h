@@ -101,6 +101,14 @@ inline constexpr GoldenFrame kGoldenFrames[] = {
     {"builtin:atrium,glass=1", "light-volumes", 200, 150,
      "3309fed2503cf57873f63a685375582f10e40742771b0444107292143c94e075"},
     {"builtin:atrium,glass=1", "lecture", 200, 150, "f9fa9b7ca989a5ffb38d2dfdf9f5ab505e424a808558fdfc8ec60a57d38777d2"},
+    {"builtin:city", "gltf", 200, 150, "40bdb16af08d933d05542a74b7845b2ceb5511304a60fa1d8b5c038f11dfa9a3"},
+    {"builtin:rabbits", "gltf", 200, 150, "4ea8e90dcc32b57267056696bee97c80e18a84e41f041922fc21260270ef7c95"},
+    {"builtin:sphere", "gltf", 200, 150, "79dae970147db7c84531d9563756668f3c0c6e13ae49eb1f53f6c8112876c793"},
+    {"builtin:red", "gltf", 200, 150, "988f4e0e5ce6b24fb4d877f1512a5f5c3c7f6800fcc2d1c7ff8ccb5dd1a85430"},
+    {"builtin:cornell", "gltf", 200, 150, "3d5a5da1e5312de0132af89bd9c483ce4e8e962c19e46920c0f2ecf6c97d18d4"},
+    {"builtin:circle", "gltf", 200, 150, "03f4e75fece6072c56e30079e65a3ca46bc1ea447071f62d48be166295f4ef06"},
+    {"builtin:atrium", "gltf", 200, 150, "96f8f4ac10ea5757edcb70cdb0d95d5f0e0125366e860d2a0b976ea87427aba3"},
+    {"builtin:lecture", "gltf", 200, 150, "2bf77f9289b5ea1f52c3d8b32f9e8ead89684938ecb64ae2bb077d9ed87f009f"},
 };
 
 }  // namespace trueshade

@@ -7,6 +7,7 @@
 #include "scenes/builtin/builtin.h"
 #include "scenes/builtin/pcg32.h"
 #include "scenes/pipeline/presets.h"
+#include "shading/program/program_frame.h"
 #include "tests/catch.hpp"
 #include "tests/judge/captured.h"
 
@@ -77,7 +78,7 @@ TEST_CASE("Our own frames are explained under every preset and strategy") {
     const PreparedScene prepared(scene);
     for (const Preset& preset : presets())
       for (size_t strategy = 0; strategy < std::size(kStrategyNames); ++strategy) {
-        Pipeline pipeline = preset.pipeline;
+        Pipeline pipeline = with_planes_of_program(preset.pipeline);
         pipeline.width = 64;
         pipeline.height = 48;
         pipeline.strategy = Strategy(strategy);

@@ -11,6 +11,7 @@
 #include "tests/catch.hpp"
 #include "tests/judge/captured.h"
 #include "tests/judge/drivers.h"
+#include "tests/stated_presets.h"
 
 using namespace trueshade;
 using namespace trueshade::oracle;
@@ -73,7 +74,7 @@ uint64_t unlawful(const StageVerdict& stage) { return stage.count(PixelClass::vi
 
 TEST_CASE("Where a stored position is infinite our own lights add nothing, and the judge asks for that") {
   const Scene scene = distant_city(), far_lights = without_near_lights(scene);
-  for (const Preset& preset : presets())
+  for (const Preset& preset : stated_presets())
     for (const Strategy strategy : {Strategy::deferred_loop, Strategy::deferred_volumes}) {
       CAPTURE(preset.name, name_of(strategy));
       const Pipeline pipeline = in_halves(preset, strategy);
@@ -88,7 +89,7 @@ TEST_CASE("Where a stored position is infinite our own lights add nothing, and t
 
 TEST_CASE("A light that reaches infinite positions is a violation under every light model") {
   const Scene scene = distant_city();
-  for (const Preset& preset : presets()) {
+  for (const Preset& preset : stated_presets()) {
     CAPTURE(preset.name);
     Pipeline lambert = in_halves(preset, Strategy::deferred_loop);
     lambert.light_model.specular = Specular::none;  // a direction to the eye is none there, and then anything is legal
@@ -129,7 +130,7 @@ TEST_CASE("llvmpipe draws by the emitted shader what the page says of infinite p
   near.lights = lit.lights;
   const Scene far_lights = without_near_lights(near);
   GlRenderer renderer(*context, near), far_renderer(*context, far_lights);
-  for (const Preset& preset : presets())
+  for (const Preset& preset : stated_presets())
     for (const Strategy strategy : {Strategy::deferred_loop, Strategy::deferred_volumes}) {
       CAPTURE(preset.name, name_of(strategy));
       const Pipeline pipeline = in_halves(preset, strategy);

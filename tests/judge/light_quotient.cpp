@@ -5,7 +5,7 @@
 
 #include "judge/stages/validate.h"
 #include "scenes/builtin/builtin.h"
-#include "scenes/light_models/light_models.h"
+#include "scenes/pipeline/shipped_models.h"
 #include "shading/program/program_frame.h"
 #include "tests/catch.hpp"
 #include "tests/judge/captured.h"

@@ -4,15 +4,16 @@
 #include <optional>
 
 #include "gl/driver/renderer.h"
-#include "tests/judge/mutants/blend_mutants.h"
-#include "tests/judge/mutants/glass_mutants.h"
-#include "tests/judge/mutants/surface_mutants.h"
 #include "judge/stages/validate.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/builtin/pcg32.h"
 #include "scenes/pipeline/presets.h"
 #include "tests/catch.hpp"
 #include "tests/gl/opened_driver.h"
+#include "tests/judge/mutants/blend_mutants.h"
+#include "tests/judge/mutants/glass_mutants.h"
+#include "tests/judge/mutants/surface_mutants.h"
+#include "tests/stated_presets.h"
 
 using namespace trueshade;
 using namespace trueshade::oracle;
@@ -93,7 +94,7 @@ TEST_CASE("What llvmpipe draws is explained under every preset and strategy, by 
     const Scene scene = builtin_scene(spec);
     GlRenderer renderer(*context, scene, 0, &programs);
     std::map<std::string, Others> others;
-    for (const Preset& preset : presets())
+    for (const Preset& preset : stated_presets())
       for (size_t strategy = 0; strategy < std::size(kStrategyNames); ++strategy) {
         Pipeline pipeline = preset.pipeline;
         pipeline.width = 80;
@@ -112,7 +113,7 @@ TEST_CASE("Maps, ten-bit normals, mixed extents and glass by llvmpipe are explai
   if (context == nullptr) return;
   const bool known = testing::is_of_known_profile(*context);
   uint64_t layered = 0;
-  for (const Preset& preset : presets())
+  for (const Preset& preset : stated_presets())
     for (size_t strategy = 0; strategy < std::size(kStrategyNames); ++strategy)
       for (const auto mode : {TransparencyMode::into_albedo, TransparencyMode::after_lights}) {
         if (is_forward(Strategy(strategy)) && mode == TransparencyMode::into_albedo) continue;
@@ -233,7 +234,7 @@ TEST_CASE("What llvmpipe draws is explained by its profile and by any GPU's, and
     const Scene scene = builtin_scene(name);
     GlRenderer renderer(*context, scene);
     std::map<std::string, Others> others;
-    for (const Preset& preset : presets()) {
+    for (const Preset& preset : stated_presets()) {
       Pipeline pipeline = preset.pipeline;
       if (pipeline.strategy != Strategy::deferred_loop) continue;  // the others: above
       pipeline.width = 200;

@@ -9,6 +9,7 @@
 #include "scenes/shapes.h"
 #include "tests/judge/random_light_text.h"
 #include "tests/judge/random_scene.h"
+#include "tests/stated_presets.h"
 
 namespace trueshade::testing {
 
@@ -169,7 +170,8 @@ void vary_light_volumes(LightVolumes& v, Pcg32& random) {
 }
 
 Pipeline wide_pipeline(Pcg32& random) {
-  Pipeline p = presets()[random.below(uint32_t(presets().size()))].pipeline;
+  const std::vector<Preset> rows = stated_presets();
+  Pipeline p = rows[random.below(uint32_t(rows.size()))].pipeline;
   p.strategy = Strategy(random.below(uint32_t(std::size(kStrategyNames))));
   p.width = 32 + int(random.below(33)), p.height = 24 + int(random.below(25));
   p.target = any_of(random, kTargetFormats);

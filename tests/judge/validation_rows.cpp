@@ -24,6 +24,7 @@
 #include "scenes/builtin/builtin.h"
 #include "scenes/pipeline/presets.h"
 #include "tests/judge/row_drawer.h"
+#include "tests/stated_presets.h"
 
 using namespace trueshade;
 using namespace trueshade::oracle;
@@ -217,7 +218,7 @@ int main(int count, char** argument) {
       std::optional<Table> table;
       const std::set<std::string> done = keys_in(request.file);
       for (const Strategy strategy : request.strategies)
-        for (const Preset& preset : presets()) {
+        for (const Preset& preset : stated_presets()) {
           Pipeline pipeline = preset.pipeline;
           pipeline.preset = preset.name;
           pipeline.strategy = strategy;

@@ -14,6 +14,7 @@
 #include "tests/judge/captured.h"
 #include "tests/judge/legal_by_formula.h"
 #include "tests/judge/violations.h"
+#include "tests/stated_presets.h"
 
 namespace trueshade::testing {
 
@@ -119,10 +120,11 @@ void try_mutants(std::span<const Profile> profiles, const Renderer& renderer, si
                  std::span<const std::string_view> same, std::span<const std::string_view> inside, Tries tries) {
   std::map<std::string_view, MutantScore> scores;
   size_t picture = 0;
+  const std::vector<Preset> rows = stated_presets();
   for (const auto& [scene, width, height] : scenes_of_mutants())
-    for (size_t i = 0; i < presets().size(); ++i) {
+    for (size_t i = 0; i < rows.size(); ++i) {
       if (i >= presets_everywhere && scene.spec != "builtin:cornell") continue;
-      Pipeline pipeline = presets()[i].pipeline;
+      Pipeline pipeline = rows[i].pipeline;
       pipeline.width = width, pipeline.height = height;
       const Capture right = renderer(scene, pipeline);
       for (const Profile& profile : profiles) {

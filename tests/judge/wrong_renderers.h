@@ -21,7 +21,7 @@ struct MutantScore {
 /// Every wrong renderer of `mutants()` on seven scenes, where `renderer` draws. Each try must be rejected, or its
 /// picture shown to be legal without the judge (legal_by_formula.h); each renderer be rejected on two scenes at least,
 /// by any GPU's rules too where these leave no latitude. Prints the counts.
-///   presets: how many of presets() are tried on every scene; on cornell all are
+///   presets: how many of stated_presets() are tried on every scene; on cornell all are
 ///   same: those that change no picture here
 ///   inside: those whose pictures are all legal here, beside those of Latitude::always_legal
 ///   tries: half leaves out none of those that a profile's latitude may make legal

@@ -1,5 +1,5 @@
 // The light models that ship, held to the formulas of their sources in double.
-#include "scenes/light_models/light_models.h"
+#include "scenes/pipeline/shipped_models.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

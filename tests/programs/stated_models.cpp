@@ -11,6 +11,7 @@
 #include "tests/programs/run_program.h"
 #include "tests/shading/naive_lights.h"
 #include "tests/shading/random_light_model.h"
+#include "tests/stated_presets.h"
 
 namespace trueshade::programs {
 namespace {
@@ -136,7 +137,7 @@ TEST_CASE("Any light model that a pipeline states has, as a program, the bits of
 TEST_CASE("Each preset has, as a program, the bits of the naive loop on every SIMD target") {
   for (const std::string_view target : simd_targets()) {
     const SimdScope scope(target);
-    for (const Preset& preset : presets()) {
+    for (const Preset& preset : stated_presets()) {
       INFO(preset.name << " on " << target);
       RandomWords random(7);
       CHECK(check_model(preset.pipeline.light_model, random, 80) > 10);

@@ -206,3 +206,11 @@ def test_a_wrong_light_program_is_said_with_its_place(tmp_path):
         trueshade.Pipeline(light_parameters={"gain": 1})
     with pytest.raises((ValueError, trueshade.Error), match="cannot be read"):
         trueshade.Pipeline(light_shader=str(tmp_path / "none.glsl"))
+
+
+def test_the_light_program_of_a_preset_goes_through_json():
+    loaded = trueshade.load_scene("builtin:cornell")
+    named = trueshade.Pipeline("gltf", size=SIZE)
+    read = trueshade.Pipeline(values=named.to_json())
+    assert read == named
+    assert trueshade.render(loaded, read).hash == trueshade.render(loaded, named).hash

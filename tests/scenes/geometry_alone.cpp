@@ -2,7 +2,9 @@
 
 #include "scenes/lights_of_ours.h"
 #include "scenes/pipeline/fit_lights.h"
+#include "scenes/pipeline/presets.h"
 #include "scenes/scene.h"
+#include "scenes/trig.h"
 #include "tests/catch.hpp"
 #include "tests/scratch_folder.h"
 
@@ -90,12 +92,12 @@ TEST_CASE("geometry alone: lights are up to five times as bright on dark surface
 }
 
 TEST_CASE("geometry alone: where light spreads by the inverse square, a model of any size is as bright") {
-  LightModel spreading;
-  spreading.falloff = Falloff::inverse_square;
+  Pipeline spreading;
+  spreading.light_model.falloff = Falloff::inverse_square;
   const auto key_at_model = [&](double size) {
     Scene scene = loaded(box(0.0, 0.0, 0.0, size));
     const Light before = scene.lights.at(0);
-    fit_lights_of_ours(scene, LightModel{});
+    fit_lights_of_ours(scene, Pipeline{});
     CHECK(scene.lights.at(0).color == before.color);
     fit_lights_of_ours(scene, spreading);
     const glm::dvec3 way = glm::dvec3(scene.lights.at(0).position) - glm::dvec3(0.5 * size);
@@ -112,6 +114,24 @@ TEST_CASE("geometry alone: where light spreads by the inverse square, a model of
   const glm::vec3 stated = scene.lights.at(0).color;
   fit_lights_of_ours(scene, spreading);
   CHECK(scene.lights.at(0).color == stated);
+}
+
+TEST_CASE("geometry alone: where a light program divides diffuse light by pi, lamps have pi times as much") {
+  Scene formula = loaded(box(0.0, 0.0, 0.0, 1.0)), program = formula;
+  fit_lights_of_ours(formula, *preset_pipeline("punctual"));
+  fit_lights_of_ours(program, *preset_pipeline("gltf"));
+  REQUIRE(program.lights.size() == formula.lights.size());
+  for (size_t i = 0; i < program.lights.size(); ++i) {
+    const bool is_lamp = program.lights[i].type != LightType::ambient;
+    for (int c = 0; c < 3; ++c)
+      CHECK(program.lights[i].color[c] == Approx((is_lamp ? kPi : 1.0) * double(formula.lights[i].color[c])));
+  }
+  Pipeline ends = Pipeline{};  // a program behind a preset whose lights end by themselves: as without it
+  ends.light_program = preset_pipeline("gltf")->light_program;
+  Scene same = loaded(box(0.0, 0.0, 0.0, 1.0));
+  const glm::vec3 before = same.lights.at(0).color;
+  fit_lights_of_ours(same, ends);
+  CHECK(same.lights.at(0).color == before);
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "core/error.h"
-#include "scenes/light_models/light_models.h"
 #include "scenes/pipeline/program_inputs.h"
+#include "scenes/pipeline/shipped_models.h"
 #include "tests/catch.hpp"
 
 namespace trueshade {

@@ -3,6 +3,7 @@
 
 #include "expect_error.h"
 #include "scenes/pipeline/presets.h"
+#include "scenes/pipeline/shipped_models.h"
 
 namespace trueshade {
 namespace {
@@ -92,6 +93,32 @@ TEST_CASE("a pipeline's text reads back as the same pipeline over any base, and 
     }
 }
 
+TEST_CASE("the text of the preset gltf reads back as the preset, once its model has its text") {
+  const Pipeline row = *preset_pipeline("gltf");
+  Pipeline again = pipeline_from_json(pipeline_json(row), "p.json", strange_pipeline());
+  CHECK(again.light_program.text.empty());
+  give_text(again.light_program);
+  CHECK(again == row);
+  CHECK(draws_by_its_preset(again));
+  again.light_program = shipped_program("ue4");
+  CHECK_FALSE(draws_by_its_preset(again));
+  LightProgram other{"gltf", {}, std::string(64, '0'), {}};
+  CHECK_STARTS_WITH(error_of(ErrorKind::bad_input, [&] { give_text(other); }),
+                    "gltf: is not the light program that the pipeline names");
+}
+
+TEST_CASE("a light model that a text states takes the place of a preset's program, and not of one that a text names") {
+  const char* const text = R"({"light_model": {"damping": 0.5}})";
+  Pipeline expected = *preset_pipeline("punctual");
+  expected.preset = "gltf";
+  expected.light_model.damping = 0.5f;
+  CHECK(pipeline_from_json(text, "p.json", *preset_pipeline("gltf")) == expected);
+  const Pipeline named = pipeline_from_json(R"({"light_program": {"file": "ue4"}})", "p.json", {});
+  CHECK(pipeline_from_json(text, "p.json", named).light_program.file == "ue4");
+  CHECK_STARTS_WITH(refusal(R"({"preset": "gltf", "light_model": {"damping": 0.5}})"),
+                    "p.json: light_model beside the preset gltf, which draws by a light program");
+}
+
 TEST_CASE("the text of the default pipeline stays as it is") {
   CHECK(
       pipeline_json({}) ==
@@ -137,7 +164,7 @@ TEST_CASE("bad pipelines are refused at their pointer") {
       {R"({"version": 2})", "p.json: /version: found 2"},
       {R"({"preset": "nonesuch"})",
        "p.json: /preset: found \"nonesuch\" (one of many-lights touchdesigner gl-fixed punctual lecture light-volumes "
-       "light-volumes-literal redsdk)"},
+       "light-volumes-literal redsdk gltf)"},
       {R"({"width": 0})", "p.json: /width: found 0 (a whole number from 1 to 1048576)"},
       {R"({"width": 1048577})", "p.json: /width: found 1048577"},
       {R"({"width": 1.5})", "p.json: /width: found 1.5"},

@@ -9,6 +9,7 @@
 #include "tests/catch.hpp"
 #include "tests/shading/many_lights_text.h"
 #include "tests/shading/square_mesh.h"
+#include "tests/stated_presets.h"
 
 using namespace trueshade;
 using trueshade::testing::kManyLights;
@@ -120,7 +121,7 @@ TEST_CASE("Presets whose models are programs blend their own frames, bit for bit
   }
   const PreparedScene prepared(scene);
   const std::vector<std::string> planes{"light.1"};
-  for (const Preset& preset : presets()) {
+  for (const Preset& preset : stated_presets()) {
     // Its surfaces have metal and roughness made into another pair, which programs are not given.
     if (preset.pipeline.light_model.specular_source == SpecularSource::metallic_roughness) continue;
     for (const Way& way : kWays)

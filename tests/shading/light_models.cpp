@@ -12,6 +12,7 @@
 #include "tests/catch.hpp"
 #include "tests/shading/light_sheet.h"
 #include "tests/shading/random_light_model.h"
+#include "tests/stated_presets.h"
 
 using namespace trueshade;
 
@@ -149,7 +150,7 @@ TEST_CASE("every term, falloff, cone and order of a light model has the naive lo
 
 TEST_CASE("every preset has the naive loop's bits on every target, by the compiled kernel and by the general one") {
   Random random(59);
-  for (const Preset& row : presets()) {
+  for (const Preset& row : stated_presets()) {
     Scene scene = mixed_sheets(random);
     for (int light = 0; light < 60; ++light) scene.lights.push_back(random_light(random));
     Pipeline pipeline = loop_pipeline(row.name);

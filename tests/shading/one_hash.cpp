@@ -138,7 +138,7 @@ TEST_CASE("every built-in scene has one hash over pairs of all ways to draw it",
       prepared.emplace(scene);
       loaded = golden.scene;
     }
-    // A scene's frames share its ways: every third each, and every eighth of millions of triangles. The eight presets
+    // A scene's frames share its ways: every third each, and every eighth of millions of triangles. The nine presets
     // begin with another one each, and every scene with another preset.
     const bool dense = is_dense(golden.scene);
     const size_t shares = dense ? 8 : 3;

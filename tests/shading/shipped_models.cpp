@@ -4,7 +4,7 @@
 #include "core/image_hash.h"
 #include "core/simd/simd_target.h"
 #include "scenes/builtin/builtin.h"
-#include "scenes/light_models/light_models.h"
+#include "scenes/pipeline/shipped_models.h"
 #include "scenes/shapes.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"

@@ -4,13 +4,14 @@
 #include <bit>
 #include <vector>
 
-#include "oracle/blend.h"
 #include "core/simd/simd_target.h"
+#include "oracle/blend.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"
 #include "tests/raster/random_frame.h"
+#include "tests/stated_presets.h"
 
 using namespace trueshade;
 using namespace trueshade::testing;
@@ -152,7 +153,8 @@ Scene scene_with_glass(Random& random, bool maps) {
 
 Pipeline some_pipeline(Random& random, TransparencyMode mode) {
   const Pipeline geometry = random_pipeline(random);
-  Pipeline p = presets()[random() % presets().size()].pipeline;
+  const std::vector<Preset> rows = stated_presets();
+  Pipeline p = rows[random() % rows.size()].pipeline;
   p.width = 20 + int(random() % 24);
   p.height = 20 + int(random() % 24);
   p.geometry = geometry.geometry;

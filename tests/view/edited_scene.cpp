@@ -15,7 +15,7 @@ namespace {
 Scene made_at_once(const std::string& spec, const ViewState& state) {
   Scene scene = load_scene(spec);
   change_lights(scene, state.changes);
-  fit_lights_of_ours(scene, state.pipeline.light_model);
+  fit_lights_of_ours(scene, state.pipeline);
   set_time(scene, state.time);
   if (state.camera) scene.camera = *state.camera;
   return scene;

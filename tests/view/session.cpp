@@ -239,6 +239,31 @@ TEST_CASE("A preset that is chosen keeps the light model, time passes where it r
   CHECK(session.hash() != first);
 }
 
+TEST_CASE("A preset that draws by a light program brings it along and takes it away, and a model that is chosen stays") {
+  Run run("builtin:cornell");
+  Session& session = run.session;
+  const auto program = [&session] { return session.state().pipeline.light_program.file; };
+  session.set_preset("gltf");
+  CHECK(program() == "gltf");
+  CHECK(session.state().pipeline.light_program == preset_pipeline("gltf")->light_program);
+  run.until_still();
+  CHECK(session.hash() == run.rendered());
+  const std::string by_gltf = session.hash();
+  session.set_preset("punctual");
+  CHECK(program().empty());
+  session.set_preset("gltf");
+  session.set_model("ue4");
+  CHECK(program() == "ue4");
+  session.set_preset("punctual");
+  CHECK(program() == "ue4");
+  session.set_preset("gltf");
+  CHECK(program() == "ue4");
+  session.set_model("");  // what the preset draws by
+  CHECK(program() == "gltf");
+  run.until_still();
+  CHECK(session.hash() == by_gltf);
+}
+
 TEST_CASE("Saved pictures and scenes are named by the hash, and a folder that is not there is a problem of its own") {
   const ScratchFolder folder;
   Run run(folder.write("scene.json", kScene));

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <numeric>
 
-#include "scenes/light_models/light_models.h"
 #include "scenes/pipeline/program_inputs.h"
+#include "scenes/pipeline/shipped_models.h"
 #include "view/window/panels.h"
 
 namespace trueshade::viewer {

@@ -11,6 +11,7 @@
 #include "tests/catch.hpp"
 #include "tests/judge/captured.h"
 #include "tests/judge/diagnosis/planted.h"
+#include "tests/stated_presets.h"
 
 namespace trueshade::testing {
 
@@ -155,7 +156,7 @@ TEST_CASE("Of two faults at once both are named in 70 of 100", "[long]") {
 
 TEST_CASE("Legal captures have no finding") {
   for (const char* spec : {"city,lights=60,objects=300", "cornell", "circle,lights=24"})
-    for (const Preset& preset : presets())
+    for (const Preset& preset : stated_presets())
       for (const Strategy strategy : {Strategy::deferred_loop, Strategy::deferred_volumes}) {
         const Scene scene = builtin_scene(spec);
         Pipeline pipeline = preset.pipeline;

@@ -40,6 +40,7 @@ struct Light {
   int shadow, cookie;
   vec4 user[4];
 };
+const uint light_type_ambient = 0u, light_type_directional = 1u, light_type_point = 2u, light_type_spot = 3u;
 struct View {
   vec3 eye, axis;
   mat4 view, projection, view_projection;

@@ -1,6 +1,7 @@
 #include "../expect_error.h"
 #include "asset.h"
 #include "scenes/pipeline/presets.h"
+#include "scenes/pipeline/shipped_models.h"
 
 namespace trueshade {
 namespace {
@@ -385,7 +386,12 @@ TEST_CASE("lights stand at their nodes and shine along -z, in candela and lux") 
   CHECK(spot.penumbra_rad == 0.5f);
   CHECK(scene.photometric);
   CHECK(!scene.lights_of_ours);
-  CHECK(default_pipeline(scene).light_model.falloff == Falloff::inverse_square);
+  CHECK(default_pipeline(scene).preset == "gltf");
+  CHECK(default_pipeline(scene).light_program == shipped_program("gltf"));
+  CHECK(default_pipeline(scene, false).preset == "punctual");  // of a build without light programs
+  CHECK_FALSE(default_pipeline(scene, false).light_program.used());
+  for (const bool by_program : {true, false})
+    CHECK(default_pipeline(scene, by_program).geometry.cull_face == CullFace::back);
   const Light point = load_gltf(lights(R"({"type": "point"})")).lights.at(0);
   CHECK(point.type == LightType::point);
   CHECK(point.color == glm::vec3(1));

@@ -1,12 +1,13 @@
-#include "scenes/light_models/light_models.h"
+#include "scenes/pipeline/shipped_models.h"
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
 #include "core/likeliest_name.h"
 #include "core/sha256.h"
-#include "scenes/light_models/texts.h"
+#include "scenes/pipeline/shipped_texts.h"
 #include "scenes/pipeline/presets.h"
 
 namespace trueshade {
@@ -53,6 +54,16 @@ const ShippedModel& shipped_model(std::string_view name) {
 LightProgram shipped_program(std::string_view name) {
   const ShippedModel& model = shipped_model(name);
   return {std::string(model.name), std::string(model.text), sha256_of(std::string(model.text)), {}};
+}
+
+void give_text(LightProgram& program) {
+  if (!program.used() || !program.text.empty() || !names_shipped_model(program.file)) return;
+  LightProgram model = shipped_program(program.file);
+  if (!program.sha256.empty() && program.sha256 != model.sha256)
+    throw Error(ErrorKind::bad_input, program.file, "is not the light program that the pipeline names",
+                "the file whose SHA-256 is " + program.sha256);
+  model.parameters = std::move(program.parameters);
+  program = std::move(model);
 }
 
 }  // namespace trueshade

@@ -26,4 +26,8 @@ const ShippedModel& shipped_model(std::string_view name);
 /// The model as a pipeline has it, without parameters. Error(usage) as above.
 LightProgram shipped_program(std::string_view name);
 
+/// Gives a model that ships, which a pipeline's JSON names, its text; other programs stay. Error(usage) as above,
+/// Error(bad_input) where the JSON has the SHA-256 of another text.
+void give_text(LightProgram& program);
+
 }  // namespace trueshade
