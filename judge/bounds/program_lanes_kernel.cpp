@@ -429,7 +429,7 @@ class Lanes {
   void run(const ProgramStep& step) const {
     if (step.terms > 0) return each(step, [&](size_t i) { return sum(step, i); });
     const Op op = step.node.op;
-    const V zero = hn::Zero(D()), one = number(1);
+    const V one = number(1);
     switch (op) {
       case Op::f_add:
         return each_of_two(step, [&](const Three& x, const Three& y) { return two_terms(x, y); });
