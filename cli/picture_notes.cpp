@@ -132,6 +132,22 @@ std::string clamp_note(const Pipeline& pipeline, const Image& picture, bool to_p
          "post chain brings it into range)";
 }
 
+/// How many pixels are no numbers, which a picture does not show: a PNG has 0 for NaN.
+std::string nan_note(const Pipeline& pipeline, const Image& picture) {
+  if (info(picture.format).number_class != NumberClass::floating || pipeline.view != ImageView::lit) return {};
+  size_t count = 0;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      bool any = false;
+      for (int c = 0; c < 3; ++c) any = any || std::isnan(picture.value(x, y, c));
+      count += any ? 1 : 0;
+    }
+  if (count == 0) return {};
+  return std::to_string(count) + " of " + std::to_string(size_t(picture.width) * size_t(picture.height)) +
+         " pixels are NaN: Their light is no number, as that of a root of less than 0 (trueshade explain --pixel X,Y "
+         "says where it first became so)";
+}
+
 /// Says so where the boxes of the view light-boxes hide nearly all of what is drawn.
 std::string hidden_note(const Pipeline& pipeline, const Image& picture) {
   constexpr int kHiddenPercent = 90;
@@ -155,7 +171,7 @@ std::string hidden_note(const Pipeline& pipeline, const Image& picture) {
 std::vector<std::string> picture_notes(const Scene& scene, const Pipeline& pipeline, const Frame& frame, bool to_png) {
   std::vector<std::string> notes;
   for (std::string note : {black_note(scene, pipeline, frame), clamp_note(pipeline, frame.color, to_png),
-                           hidden_note(pipeline, frame.color)})
+                           nan_note(pipeline, frame.color), hidden_note(pipeline, frame.color)})
     if (!note.empty()) notes.push_back(std::move(note));
   return notes;
 }

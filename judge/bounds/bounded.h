@@ -43,9 +43,6 @@ inline Bounded rounded(double value, double error, double relative) {
   return {value, error + relative * (std::fabs(value) + error) + kSmallestFloat};
 }
 
-inline Bounded sum(const Arithmetic& a, const Bounded& x, const Bounded& y) {
-  return rounded(x.value + y.value, x.error + y.error, a.roundoff);
-}
 inline Bounded difference(const Arithmetic& a, const Bounded& x, const Bounded& y) {
   return rounded(x.value - y.value, x.error + y.error, a.roundoff);
 }
@@ -90,15 +87,8 @@ inline Bounded square_root(const Arithmetic& a, const Bounded& x) {
   return rounded(root, inherited, a.square_root);
 }
 
-/// max(x, 0): does not round, never moves values apart.
-inline Bounded positive(const Bounded& x) { return x.value > 0 ? x : Bounded{0, std::max(0.0, x.high())}; }
-
-/// x^s for 0 <= low <= x <= high, s >= 0, as exp2(s * log2 x) may be computed. log2 errs by 3 ulp outside [0.5, 2], by
-/// 2^-21 inside; the product by one rounding; exp2 by 3 + 2|y| ulp, y = s log2 x (GLSL 4.60, 4.7.1). Exact_pow: one
-/// rounding. Else the error is infinite where the power may be beyond the largest float.
-Bounded power(const Arithmetic& a, double low, double x, double high, double s);
-
-/// The part of x^s that the power of an exact x > 0 errs by.
+/// The part of x^s that exp2(s * log2 x) of an exact x > 0 errs by. log2 errs by 3 ulp outside [0.5, 2], by 2^-21 inside;
+/// the product by one rounding; exp2 by 3 + 2|y| ulp, y = s log2 x (GLSL 4.60, 4.7.1). Exact_pow: one rounding.
 double relative_power_error(const Arithmetic& a, double x, double s);
 
 }  // namespace trueshade::oracle

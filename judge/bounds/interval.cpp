@@ -175,6 +175,7 @@ Interval of_integers(const ProgramNode& node, const Interval& x, const Interval&
   const programs::OpInfo& op = info(node.op);
   if (!x.known() || (op.operands > 1 && !y.known()))
     return node.type == Type::f32 ? Interval::anything() : any_integer(node.type);
+  if (node.op == Op::f_bits && !(x.size() >= kSmallestFloat)) return any_integer(node.type);  // 0 has either sign
   if (node.op == Op::f_from_half) return Interval::of(double(of_half(bits_of(x, Type::u32))));
   if (node.op == Op::f_to_half || node.op == Op::f_significand || node.op == Op::f_exponent) {
     int exponent = 0;
@@ -191,6 +192,12 @@ Interval converted(const ProgramNode& node, const Interval& x) {
   const double least = is_signed ? -0x1p31 : 0, most = is_signed ? 0x1p31 - 1 : 0xFFFFFFFFp0;
   if (x.maybe_nan || x.low < least || x.high > most) return any_integer(node.type);  // GLSL leaves these undefined
   return monotone(x, [](double v) { return std::trunc(v); });
+}
+
+/// What may be either infinity may come of inf - inf or 0 inf too.
+Interval unless_anything(Interval x) {
+  if (x.low == -HUGE_VAL && x.high == HUGE_VAL) x.maybe_nan = true;
+  return x;
 }
 
 }  // namespace
@@ -228,7 +235,7 @@ Interval IntervalArithmetic::rounded(Interval x) const {
   if (std::isnan(x.low) || std::isnan(x.high)) return Interval::anything();
   x.low = x.low > 0 && x.low < kSmallestFloat ? 0 : below(x.low);
   x.high = x.high < 0 && x.high > -kSmallestFloat ? 0 : above(x.high);
-  return a_.wgsl ? finite(x) : x;
+  return a_.wgsl ? finite(x) : unless_anything(x);
 }
 
 /// WGSL, "Floating Point Rounding and Overflow": what is not finite is indeterminate.
@@ -264,7 +271,7 @@ Interval IntervalArithmetic::within(Interval x, double relative, double absolute
   if (x.high < 0 && x.high > -kSmallestFloat) x.high = 0;
   if (x.high > kLargest) x.high = HUGE_VAL;
   if (x.low < -kLargest) x.low = -HUGE_VAL;
-  return a_.wgsl ? finite(x) : x;
+  return a_.wgsl ? finite(x) : unless_anything(x);
 }
 
 Interval IntervalArithmetic::sum(std::span<const Interval> terms, double more) const {
@@ -370,7 +377,7 @@ Interval IntervalArithmetic::exponential(const Interval& x, double base) const {
   const auto error = [this](double v) { return (3 + a_.more_ulps() + 2 * std::fabs(v)) * kUlp; };
   out.low = std::isfinite(x.low) ? std::max(0.0, out.low - reach(out.low, error(x.low))) : out.low;
   out.high = std::isfinite(x.high) ? out.high + reach(out.high, error(x.high)) : out.high;
-  if (out.high > kLargest) return Interval::anything();  // as of power(): its accuracy ends there
+  if (out.high > kLargest) return Interval::anything();  // its accuracy ends there
   return within(out, 0);
 }
 

@@ -111,10 +111,10 @@ Pipeline with_planes_that_program_reads(const Pipeline& pipeline) {
   return with_planes_of(pipeline, program_reads(given.file, inputs));
 }
 
-/// The pipeline's own, or its light model's.
+/// The pipeline's own, or its light model's, as other renderers have it too.
 static std::shared_ptr<const programs::Program> program_judged(const Pipeline& pipeline) {
   const LightProgram& given = pipeline.light_program;
-  const LightProgram light = given.used() ? given : program_of(pipeline.light_model);
+  const LightProgram light = given.used() ? given : program_of(pipeline.light_model, "light_model", Spelling::as_renderers_write);
   return programs::kept_program(light.file, light.text);
 }
 

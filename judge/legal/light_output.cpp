@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-
 namespace trueshade::oracle {
 
 /// Outside forward strategies a light's fragments end where its geometry does.

@@ -126,8 +126,8 @@ void TransparentLayers::shade(const SurfaceValues& values, const PossibleSurface
   ShadedSurface surface = shaded_surface(values, pipeline_.gbuffer);
   surface.object = drawn.instance + 1, surface.pixel = {x, y};
   surface.material = projector_.scene().instances[drawn.instance].material + 1;
-  ProgramBounds::Block block;
-  std::vector<uint32_t> near;
+  static thread_local ProgramBounds::Block block;  // which is large
+  static thread_local std::vector<uint32_t> near;
   const ShadedSurface* const only[] = {&surface};
   lights_->take_near(only, block, near);
   LitRange lit = lights_->at(surface, near, block.registers);

@@ -152,13 +152,16 @@ std::vector<uint32_t> in_bounded_process(const std::string& file, const ProgramL
   }
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(limits.seconds);
   const std::optional<std::string> answer = read_until(from.number(), deadline);
-  kill(process, SIGKILL);  // one that has answered has nothing left to do
-  while (waitpid(process, nullptr, 0) < 0 && errno == EINTR) {
+  if (!answer) kill(process, SIGKILL);
+  int status = 0;
+  pid_t ended = 0;
+  while ((ended = waitpid(process, &status, 0)) < 0 && errno == EINTR) {
   }
+  const bool is_whole = ended < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 0);  // below 0: others wait for it
   if (!answer)
     throw Error(ErrorKind::limit, file, "takes glslang more than " + std::to_string(limits.seconds) + " s",
                 "make it shorter, or raise --max-program-time");
-  return words_of(file, *answer, limits);
+  return words_of(file, is_whole ? *answer : std::string(), limits);
 }
 
 }  // namespace trueshade::programs

@@ -32,7 +32,7 @@ bool is_even(float shininess) { return shininess <= 8192.0f && std::fmod(shinine
 bool is_squared(const LightModel& m) { return m.specular == Specular::blinn_phong && is_even(m.shininess); }
 
 /// The names behind `#ifdef` that hold for a model.
-Terms terms_of(const LightModel& m) {
+Terms terms_of(const LightModel& m, Spelling spelling) {
   using namespace pipeline_words;
   const bool shines = m.specular != Specular::none, own = reads_specular_plane(m);
   const bool tinted = shines && m.specular_source == SpecularSource::albedo;
@@ -54,8 +54,10 @@ Terms terms_of(const LightModel& m) {
   add(own, "own_gloss");
   add(shines && !own && !tinted, "own_color");
   add(tinted, "shines_by_albedo");
-  add(shines && !own && is_squared(m), "squared");
-  add(shines && !own && !is_squared(m), "not_squared");
+  const bool usual = spelling == Spelling::as_renderers_write;
+  add(usual, "as_renderers_write");
+  add(shines && !own && !usual && is_squared(m), "squared");
+  add(shines && !own && !usual && !is_squared(m), "not_squared");
   add(shines && m.specular_masked && lights_behind, "masked_behind");
   add(!lights_behind, "dark_behind");
   add(m.emission, "emission");
@@ -74,7 +76,7 @@ std::string constants_of(const LightModel& m, const Terms& terms) {
     text += "const " + std::string(type) + " " + name + " = " + value + ";\n";
   };
   if (terms.contains("shines") && !terms.contains("own_gloss"))
-    add("float", "power", literal(is_squared(m) ? m.shininess / 2 : m.shininess));
+    add("float", "power", literal(terms.contains("squared") ? m.shininess / 2 : m.shininess));
   if (terms.contains("own_color")) add("vec3", "specular_color", literal(m.specular_color));
   if (terms.contains("damped")) add("float", "damping", literal(m.damping));
   if (terms.contains("global_ambient_given")) add("vec3", "global_ambient", literal(m.global_ambient));
@@ -106,8 +108,8 @@ std::string_view below_the_head(std::string_view text) { return text.substr(text
 
 }  // namespace
 
-LightProgram program_of(const LightModel& model, const std::string& name) {
-  const Terms terms = terms_of(model);
+LightProgram program_of(const LightModel& model, const std::string& name, Spelling spelling) {
+  const Terms terms = terms_of(model, spelling);
   const std::string text = constants_of(model, terms) + chosen_lines(below_the_head(kLightTerms), terms);
   return {name, text, sha256_of(text), {}};
 }

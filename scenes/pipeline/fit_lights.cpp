@@ -5,13 +5,15 @@
 #include "core/fp_env.h"
 #include "scenes/json/json_value.h"
 #include "scenes/lights_of_ours.h"
+#include "scenes/pipeline/shipped_models.h"
 #include "scenes/trig.h"
 
 namespace trueshade {
 
 LightFit fit_of(const Pipeline& pipeline) {
   const bool spreads = pipeline.light_model.falloff == Falloff::inverse_square;
-  return {spreads, spreads && pipeline.light_program.used()};
+  const LightProgram& program = pipeline.light_program;
+  return {spreads, spreads && program.used() && names_shipped_model(program.file)};
 }
 
 void fit_lights_of_ours(Scene& scene, const Pipeline& pipeline) {

@@ -1,5 +1,5 @@
-// The judge over light programs: whatever a driver may compute lies within its bounds, these are as tight as those of
-// the closed form, and frames that are wrong are convicted.
+// The judge over light programs: whatever a driver may compute lies within its bounds, and frames that are wrong are
+// convicted.
 #include <algorithm>
 #include <cmath>
 #include <fstream>

@@ -81,8 +81,13 @@ Arrival arrival(Surface s, Light l) {
     f = f * g;
   }
 #endif
+#ifdef as_renderers_write
+  float facing = dot(n, to);
+  return Arrival(to, facing, facing, f, reaches);
+#else
   float facing = dot(n, offset);
   return Arrival(to, facing, facing * r, f, reaches);
+#endif
 }
 
 #ifdef shines
@@ -100,6 +105,9 @@ float highlight(Surface s, View v, Arrival at) {
   vec3 reflected = (2.0 * min(1.0, max(at.cosine, 0.0))) * n - at.to;
   float x = min(1.0, max(dot(reflected, eye), 0.0));
 #else
+#ifdef as_renderers_write
+  float x = max(dot(n, normalize(at.to + eye)), 0.0);
+#else
   vec3 h = at.to + eye;  // the half vector, of any length
   float h2 = dot(h, h), t = max(dot(n, h), 0.0);
 #ifdef own_gloss
@@ -112,6 +120,7 @@ float highlight(Surface s, View v, Arrival at) {
 #endif
 #ifdef not_squared
   float x = h2 > 0.0 ? t / sqrt(h2) : 0.0;
+#endif
 #endif
 #ifdef renormalize
   x = min(1.0, x);

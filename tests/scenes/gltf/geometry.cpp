@@ -459,7 +459,7 @@ TEST_CASE("a file without camera and lights gets ours") {
   const Scene scene = nodes(R"({"mesh": 0, "scale": [10, 10, 10]})");
   CHECK(scene.lights.size() == 4);
   CHECK(scene.lights_of_ours);
-  CHECK(scene.camera.fov_y_rad == 0.7f);
+  CHECK(scene.camera.fov_y_rad == 0.5f);
   CHECK(scene.timeline.empty());
 }
 
