@@ -314,7 +314,7 @@ class Lanes {
       if (hn::AllTrue(d, hn::Eq(left, hn::Zero(d)))) return result;
     }
   }
-  /// The error of pow, of itself. |log2 x| is taken from above, by the exponent and the chord of log2 over a mantissa,
+  /// The error of pow, of itself; not WGSL's, which is made of two functions. |log2 x| is taken from above, by the exponent and the chord of log2 over a mantissa,
   /// or next to 1 by |x - 1| / min(x, 1).
   V power_error(V x, V s) const {
     if (in_.arithmetic.exact_pow) return hn::MulAdd(number(0x1p-45), s, number(0x1p-24));
@@ -330,11 +330,9 @@ class Lanes {
     const V close = hn::Div(hn::Abs(hn::Sub(x, number(1))), hn::Min(x, number(1)));
     const V log2_x = hn::IfThenElse(near_one, hn::Min(hn::Mul(close, number(1 / kLn2)), by_bits), by_bits);
     const V y = hn::Mul(log2_x, s);
-    const double more = in_.arithmetic.more_ulps();
     const V log2_error = hn::IfThenElse(near_one, hn::Mul(number(0x1p-21), s), hn::Mul(y, number(3 * kUlp)));
-    const V unit = number(in_.arithmetic.roundoff + more * kUlp);
-    const V q = hn::Mul(hn::Add(log2_error, hn::Mul(y, unit)), number(kLn2));
-    const V own = hn::Mul(hn::Add(hn::Add(y, y), number(3 + more)), number(kUlp));
+    const V q = hn::Mul(hn::Add(log2_error, hn::Mul(y, number(in_.arithmetic.roundoff))), number(kLn2));
+    const V own = hn::Mul(hn::Add(hn::Add(y, y), number(3)), number(kUlp));
     const V error = hn::Add(hn::Add(hn::Mul(q, hn::Add(q, number(1))), own), hn::Mul(number(0x1p-45), s));
     return hn::IfThenElse(hn::Le(q, number(1)), error, number(HUGE_VAL));
   }
@@ -343,13 +341,12 @@ class Lanes {
     const V low = hn::Max(x.low, zero), high = hn::Max(x.high, zero);
     const auto of = [&](V v, bool above) {
       const M none = hn::Eq(v, zero);
-      const V error = power_error(v, s), power = powered(v, s), off = reach(power, error);
+      const V power = powered(v, s), off = hn::Mul(power, power_error(v, s));
       return hn::IfThenZeroElse(none, above ? hn::Add(power, off) : hn::Max(zero, hn::Sub(power, off)));
     };
     const Three out{powered(hn::Max(x.value, zero), s), of(low, false), of(high, true)};
     const M beyond = hn::Not(hn::Le(out.high, number(double(std::numeric_limits<float>::max()))));
-    const M wrong = in_.arithmetic.wgsl ? hn::Le(x.low, zero) : hn::Lt(x.low, zero);
-    return chosen(hn::Or(wrong, beyond), anything(out.value), in_floats(out));
+    return chosen(hn::Or(hn::Lt(x.low, zero), beyond), anything(out.value), in_floats(out));
   }
 
   /// WGSL: the least and the largest of two that are below 2^-126 may be either.
@@ -476,7 +473,7 @@ class Lanes {
         return each_of_two(step, [](const Three& x, const Three& y) { return most_of(x, y); });
       case Op::pow:
         for (size_t i = 0; i < in_.count; i += hn::Lanes(D()))
-          if (const Three y = load(step.from[1], i); are_whole(y))
+          if (const Three y = load(step.from[1], i); are_whole(y) && !in_.arithmetic.wgsl)
             store(step, i, power(load(step.from[0], i), y.low));
           else
             run_one_by_one(step, i);
