@@ -314,8 +314,8 @@ class Lanes {
       if (hn::AllTrue(d, hn::Eq(left, hn::Zero(d)))) return result;
     }
   }
-  /// The error of pow, of itself; not WGSL's, which is made of two functions. |log2 x| is taken from above, by the exponent and the chord of log2 over a mantissa,
-  /// or next to 1 by |x - 1| / min(x, 1).
+  /// The error of pow, of itself; not WGSL's, which is made of two functions. |log2 x| is taken from above, by the
+  /// exponent and the chord of log2 over a mantissa, or next to 1 by |x - 1| / min(x, 1).
   V power_error(V x, V s) const {
     if (in_.arithmetic.exact_pow) return hn::MulAdd(number(0x1p-45), s, number(0x1p-24));
     constexpr double kUlp = 0x1p-23, kLn2 = 0.69314718055994531;
