@@ -122,7 +122,7 @@ trueshade_slow(4
   "diagnosis:One light moved a little is named with its way, and is neither dithering nor stale tiles"
   "cli:bench refuses what it cannot do, in one line"
   "cli:One scene captured in each kind of file is judged the same"
-  "gl:Three presets, replayed from their files in Vulkan, are judged without a violation"
+  "gl:Four presets, replayed from their files in Vulkan, are judged without a violation"
   "install: a program finds, links and runs the installed library"
   "diagnosis:A fault that nobody planted is named where it has a name, and no name is put on one that has none"
   "judge:softpipe is not convicted under any preset and strategy but one, of whose fault it is"
@@ -132,13 +132,13 @@ trueshade_slow(4
   "diagnosis:An anisotropic filter that is left on is named, not as a bias of levels"
   "explain:a light that another renderer leaves out is named, wherever it makes a difference"
   "diagnosis:Maps that are read wrongly are named"
-  "gl:Three presets, replayed from their files in OpenGL 3.3, are judged without a violation"
+  "gl:Four presets, replayed from their files in OpenGL 3.3, are judged without a violation"
   "judge:A shininess that is no integer, and a share of ambient light that is not there, are violations"
   "diagnosis:A camera that is elsewhere or sees another angle, and a viewport that is another, are named"
   "cli:a reader that has ended ends the command without a word"
   "farm:without lost ranks the run goes on to the end, whoever is lost, and whenever"
   "cli:The whole command stays below the memory that five and eight million triangles were given"
-  "gl:state.json carried out, call by call, draws the judge's own bytes under every preset and strategy")
+  "gl:state.json carried out, call by call, draws the judge's own bytes under every formula and strategy")
 trueshade_slow(2
   "gl:trueshade glsl writes the user's text as it is, in GLSL that glslang takes, with its parameters' bytes"
   "gl:lavapipe draws many-lights as a program within a code of our frame of it"

@@ -64,22 +64,25 @@ const char* const kCity = "builtin:city,objects=60,lights=6";
 
 }  // namespace
 
-TEST_CASE("Three presets, replayed from their files in OpenGL 3.3, are judged without a violation") {
+TEST_CASE("Four presets, replayed from their files in OpenGL 3.3, are judged without a violation") {
   check_explained({kCity, "light-volumes", "deferred-volumes", ""}, "gl33");
   check_explained({kCity, "many-lights", "deferred-loop", ""}, "gl33");
   check_explained({"builtin:lecture,lights=4", "punctual", "forward-multipass", ""}, "gl33");
+  check_explained({"builtin:lecture,lights=4", "gltf", "deferred-loop", ""}, "gl33");
 }
 
-TEST_CASE("Three presets, replayed from their files in Vulkan, are judged without a violation") {
+TEST_CASE("Four presets, replayed from their files in Vulkan, are judged without a violation") {
   check_explained({kCity, "light-volumes", "deferred-volumes", ""}, "vulkan");
   check_explained({kCity, "many-lights", "deferred-loop", ""}, "vulkan");
   check_explained({"builtin:lecture,lights=4", "punctual", "forward-multipass", ""}, "vulkan");
+  check_explained({"builtin:lecture,lights=4", "gltf", "deferred-loop", ""}, "vulkan");
 }
 
 TEST_CASE("The same frames, replayed in OpenGL 4.5 and OpenGL ES 3.1, are judged without a violation") {
   for (const char* api : {"gl", "es31"}) {
     check_explained({kCity, "light-volumes", "deferred-volumes", ""}, api);
     check_explained({"builtin:lecture,lights=4", "punctual", "forward-loop", ""}, api);
+    check_explained({"builtin:lecture,lights=4", "gltf", "deferred-volumes", ""}, api);
   }
 }
 

@@ -18,6 +18,7 @@
 #include "tests/gl/driver.h"
 #include "tests/gl/gl_calls.h"
 #include "tests/scratch_folder.h"
+#include "tests/stated_presets.h"
 
 using namespace trueshade;
 using namespace trueshade::testing;
@@ -268,11 +269,11 @@ Scene part_of_glass() {
 
 }  // namespace
 
-TEST_CASE("state.json carried out, call by call, draws the judge's own bytes under every preset and strategy") {
+TEST_CASE("state.json carried out, call by call, draws the judge's own bytes under every formula and strategy") {
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   const Scene scene = part_of_glass();
-  for (const Preset& preset : presets())
+  for (const Preset& preset : stated_presets())
     for (size_t strategy = 0; strategy < std::size(kStrategyNames); ++strategy)
       check_listed(*context, scene, preset, Strategy(strategy), "");
 }
