@@ -468,6 +468,7 @@ bool ProgramBounds::is_unlit(const ShadedSurface& s) const {
 
 void ProgramBounds::look_at(const ShadedSurface& surface, Registers& r) const {
   for (size_t rate = 0; rate < r.of.size(); ++rate) r.of[rate].resize(slots_[rate]);
+  r.light = 0;  // another's, perhaps, of more lights
   r.decided.resize(slots_[size_t(Rate::pair)], -1);
   std::vector<Interval>& own = r.of[size_t(Rate::surface)];
   for (const auto& [slot, field] : surface_inputs_) own[slot] = field.at(surface);

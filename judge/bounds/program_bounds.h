@@ -36,7 +36,7 @@ class ProgramBounds {
  public:
   static constexpr size_t kMostForks = 4;
 
-  /// One thread's values: of a surface, and of the pair that is looked at. Of the bounds that filled it alone.
+  /// One thread's values: of a surface, and of the pair that is looked at.
   struct Registers {
     std::array<std::vector<Interval>, programs::kRateCount> of;
     std::vector<int8_t> decided;  ///< of the pair's nodes: 0 false, 1 true, -1 not decided
