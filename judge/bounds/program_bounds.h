@@ -57,7 +57,8 @@ class ProgramBounds {
   /// The sum of these lights, before finish().
   LitRange at(const ShadedSurface& surface, std::span<const uint32_t> lights, Registers& registers) const;
 
-  /// One light without what a sum starts from. ends: at its extent, where it has one.
+  /// One light without what a sum starts from. ends: at its extent, where it has one; not where that leaves fragments
+  /// out, and so is judged apart.
   LitRange alone(const ShadedSurface& surface, uint32_t light, bool ends, Registers& registers) const;
 
   /// What is known of surfaces or lights that are judged together. One thread's.
