@@ -62,7 +62,7 @@ struct ProgramLanes {
   std::array<const LaneInterval*, programs::kRateCount> lanes{};
   LaneInterval* out = nullptr;
   Arithmetic arithmetic;
-  uint8_t* left = nullptr;        ///< set to 1 of lanes with a comparison that may go either way; null: nobody asks
+  uint8_t* left = nullptr;        ///< of each lane; set to 1 where a comparison may go either way. Null: not wanted
   size_t count = kIntervalLanes;  ///< lanes that are asked for: the first
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace trueshade::oracle {
 
@@ -49,15 +50,19 @@ LightOutput LightOutputs::of_color(const ShadedSurface& surface, const Bounded3&
   return output(surface, lit);
 }
 
-/// Whichever way the program's comparisons go, what it may make of the sum is one set.
 LightOutput LightOutputs::output(const ShadedSurface& surface, LitRange lit) const {
   ProgramBounds::Registers registers;
+  return output_of(program_, surface, std::move(lit), registers);
+}
+
+LightOutput output_of(const ProgramBounds& program, const ShadedSurface& surface, LitRange lit,
+                      ProgramBounds::Registers& registers) {
   LightOutput out;
   out.either_way = !lit.branches.empty();
-  const ProgramBounds::Finished nominal = program_.finished(surface, lit.color, registers);
+  const ProgramBounds::Finished nominal = program.finished(surface, lit.color, registers);
   for (const OtherBranch& branch : lit.branches)
     for (size_t k = 0; k < 3; ++k) lit.color[k].error += std::fabs(branch.change[k]);
-  const ProgramBounds::Finished all = program_.finished(surface, lit.color, registers);
+  const ProgramBounds::Finished all = program.finished(surface, lit.color, registers);
   for (size_t k = 0; k < 4; ++k) out.nominal[k] = range_of(nominal.color[k]), out.other[k] = range_of(all.color[k]);
   out.undefined =
       lit.undefined || nominal.undefined || all.undefined || !are_numbers(out.nominal) || !are_numbers(out.other);

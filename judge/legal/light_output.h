@@ -14,11 +14,15 @@ struct LightOutput {
   bool undefined = false;               ///< OpenGL gives the value no meaning
 };
 
+/// What the program's finish() may make of a sum, whichever way its comparisons go: nominally, and as one set.
+LightOutput output_of(const ProgramBounds& program, const ShadedSurface& surface, LitRange lit,
+                      ProgramBounds::Registers& registers);
+
 /// Whether a colour's ranges are known: GLSL promises nothing of what is no number.
 bool are_numbers(const std::array<Range, 4>& color);
 
-/// The outputs of strategies that draw light by light: each draw's is what finish() makes of its own sum. Lights go by
-/// their numbers in the scene, which is borrowed.
+/// The outputs of strategies that draw light by light: each draw's output is what finish() makes of that
+/// draw's own sum. A light is named by its place in Scene::lights. The scene is borrowed.
 class LightOutputs {
  public:
   LightOutputs(const Scene& scene, const Pipeline& pipeline, const Profile& profile);

@@ -130,15 +130,10 @@ void TransparentLayers::shade(const SurfaceValues& values, const PossibleSurface
   static thread_local std::vector<uint32_t> near;
   const ShadedSurface* const only[] = {&surface};
   lights_->take_near(only, block, near);
-  LitRange lit = lights_->at(surface, near, block.registers);
-  layer.either_way = !lit.branches.empty();
-  const ProgramBounds::Finished nominal = lights_->finished(surface, lit.color, block.registers);
-  for (const OtherBranch& branch : lit.branches)
-    for (size_t k = 0; k < 3; ++k) lit.color[k].error += std::fabs(branch.change[k]);
-  const ProgramBounds::Finished all = lights_->finished(surface, lit.color, block.registers);
-  for (size_t k = 0; k < 4; ++k) layer.nominal[k] = range_of(nominal.color[k]), layer.other[k] = range_of(all.color[k]);
-  layer.undefined = layer.undefined || lit.undefined || nominal.undefined || all.undefined ||
-                    !are_numbers(layer.nominal) || !are_numbers(layer.other);
+  const LightOutput lit =
+      output_of(*lights_, surface, lights_->at(surface, near, block.registers), block.registers);
+  layer.nominal = lit.nominal, layer.other = lit.other, layer.either_way = lit.either_way;
+  layer.undefined = layer.undefined || lit.undefined;
 }
 
 TransparentPixel TransparentLayers::at(int x, int y_top, uint32_t first, uint32_t end) const {

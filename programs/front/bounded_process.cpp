@@ -39,7 +39,7 @@ class Descriptor {
   const int number_;
 };
 
-/// Bytes of data and stacks that this process has (proc(5), statm); read without memory of its own.
+/// Bytes of data and stacks of this process, as /proc/self/statm has them (proc(5)). Allocates nothing.
 uint64_t data_of_process() {
   char text[256] = {};
   const Descriptor file(open("/proc/self/statm", O_RDONLY | O_CLOEXEC));
@@ -72,8 +72,8 @@ void write_answer(int to, Answer answer, uint32_t kind, const void* bytes, size_
   write_all(to, bytes, size);
 }
 
-/// The process: it ends here. Nothing of what it has from its parent is given back, and no handler of its parent's
-/// runs.
+/// What the child process does: it carries out the task, writes the answer to the pipe and exits. It runs no destructor,
+/// no exit handler and no signal handler that it has from its parent.
 [[noreturn]] void carry_out(int to, const ProgramLimits& limits, const std::function<std::vector<uint32_t>()>& task) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGTERM, SIGINT}) std::signal(signal, SIG_DFL);

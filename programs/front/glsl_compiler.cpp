@@ -28,7 +28,7 @@ struct GlslangProcess {
   ~GlslangProcess() { glslang::FinalizeProcess(); }
   GlslangProcess(const GlslangProcess&) = delete;
   GlslangProcess& operator=(const GlslangProcess&) = delete;
-  mutable std::mutex mutex;  ///< glslang has locks, which nobody may hold where the process is copied
+  mutable std::mutex mutex;  ///< held while the process forks, so that no other thread holds a lock of glslang
 };
 
 /// What a line of glslang's log says: `ERROR: TEXT:LINE: message`, and of newer versions `ERROR: TEXT:LINE:COLUMN:

@@ -15,7 +15,7 @@ LightFit fit_of(const Pipeline& pipeline);
 /// Makes lights of ours (scenes/lights_of_ours.h) as bright under a pipeline as under those that their scene was made
 /// for. Where light spreads by the inverse square, a lamp has more the farther away it is, so that a model in
 /// millimetres and one in kilometres look the same; where a model that ships draws so, a lamp has pi times as much, because these
-/// divide diffuse light by pi and presets do not. Of a program of the user's nobody knows. Other lights stay.
+/// divide diffuse light by pi and presets do not. Whether a user's program divides is not known. Other lights stay.
 void fit_lights_of_ours(Scene& scene, const Pipeline& pipeline);
 
 }  // namespace trueshade

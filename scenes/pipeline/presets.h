@@ -29,7 +29,7 @@ bool draws_light_programs();
 /// model is a light program; without, the row of numbers for candela and lux stands in.
 const Pipeline& default_pipeline(const Scene& scene, bool by_program = draws_light_programs());
 
-/// Whether a pipeline's light is that of its preset's row: its program, or none.
+/// Whether a pipeline has the light program of its preset's row, or none where the row has none.
 bool draws_by_its_preset(const Pipeline& pipeline);
 
 }  // namespace trueshade

@@ -57,7 +57,7 @@ void check_camera(const Camera& camera, const std::string& file, std::span<const
 /// The value of an input of the block `Parameters`; nothing where none is given.
 std::optional<float> parameter_value(std::string_view input, const LightProgram& program);
 
-/// A number or a vector of the block of parameters, of its declaration "ivec2 size" or "float weight[3]".
+/// The type of a member of the block of parameters, read from its declaration: "ivec2 size", "float weight[3]".
 struct ParameterType {
   std::string type, name;
   size_t components = 1;

@@ -19,10 +19,12 @@ mkdir -p build/fuzz/findings
 fuzzed() {
   local target=$1 dictionary=() status=0 executions log=build/fuzz/$1.log
   mkdir -p "build/fuzz/found/$target"
+  local seeds=("tests/fuzz/corpus/$target")
+  [[ $target == light_glsl ]] && seeds+=(scenes/light_models)  # the models that ship
   [[ -e tests/fuzz/$target.dict ]] && dictionary=("-dict=tests/fuzz/$target.dict")
   ASAN_OPTIONS=quarantine_size_mb=16 TRUESHADE_FUZZ_TARGET=$target build/fuzz/tests/fuzz/fuzzer -max_total_time="$seconds" -timeout=1 -rss_limit_mb=512 \
     -max_len=32768 -print_final_stats=1 -artifact_prefix="build/fuzz/findings/$target-" "${dictionary[@]}" \
-    "build/fuzz/found/$target" "tests/fuzz/corpus/$target" >"$log" 2>&1 || status=1
+    "build/fuzz/found/$target" "${seeds[@]}" >"$log" 2>&1 || status=1
   executions=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
   printf '%-14s %10s inputs, %s\n' "$target" "${executions:-?}" "$(grep -aoE 'cov: [0-9]+ ft: [0-9]+' "$log" | tail -n 1)"
   grep -aE 'ERROR|runtime error|SUMMARY|broken promise' "$log" | head -n 4 || true

@@ -19,7 +19,8 @@ int main(int count, char** arguments) {
   if (target == nullptr) return std::fprintf(stderr, "there is no target %s\n", arguments[1]), 2;
   std::vector<std::filesystem::path> files;
   for (int i = 2; i < count; ++i)
-    for (const auto& entry : std::filesystem::directory_iterator(arguments[i])) files.push_back(entry.path());
+    for (const auto& entry : std::filesystem::directory_iterator(arguments[i]))
+      if (entry.is_regular_file()) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   for (const std::filesystem::path& path : files) {
     std::printf("%s\n", path.filename().c_str());  // the last one printed is the one that ended the process
