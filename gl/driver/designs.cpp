@@ -53,7 +53,6 @@ struct GlPeer::Work {
   void bin_lights();
   void begin_forward();
   void use_lighting();
-  GLuint light_texels();
   void use_light_program(GLuint program);
   void light_deferred();
   void draw_volumes();
@@ -188,16 +187,10 @@ void GlPeer::Work::bin_lights() {
   tile_records = make_texel_buffer(tiles.records);
 }
 
-GLuint GlPeer::Work::light_texels() {
-  return pipeline.light_program.used() ? renderer.buffers().program_light_texels()
-                                       : renderer.buffers().light_texels(pipeline.light_model);
-}
-
-/// What a light program reads beside surfaces and lights.
+/// What a light program of its own reads beside surfaces and lights.
 void GlPeer::Work::use_light_program(GLuint program) {
   if (!pipeline.light_program.used()) return;
   bind_texture(program, "materials", kMaterialUnit, GL_TEXTURE_BUFFER, renderer.buffers().material_texels(pipeline));
-  set_clip_rows(program, scene(), pipeline);
   if (parameters != 0) bind_block(program, light_text_of(pipeline)->outline.parameter_block.c_str(), parameters);
 }
 
@@ -207,13 +200,12 @@ void GlPeer::Work::use_lighting() {
   int unit = bind_surface(lighting, planes, textures, depth, scene(), pipeline, 0, 0);
   if (is_binned(design)) {
     bind_texture(lighting, "tiles", unit++, GL_TEXTURE_BUFFER, tile_ranges.texture);
-    const char* const records = pipeline.light_program.used() ? "lights" : "records";
-    bind_texture(lighting, records, unit, GL_TEXTURE_BUFFER, tile_records.texture);
+    bind_texture(lighting, "lights", unit, GL_TEXTURE_BUFFER, tile_records.texture);
     set_uniform(lighting, "tile_size", tile);
     set_uniform(lighting, "columns", (pipeline.width + tile - 1) / tile);
     set_uniform(lighting, "image_size", std::array<float, 2>{float(pipeline.width), float(pipeline.height)});
   } else {
-    bind_texture(lighting, "lights", unit, GL_TEXTURE_BUFFER, light_texels());
+    bind_texture(lighting, "lights", unit, GL_TEXTURE_BUFFER, renderer.buffers().light_texels());
     set_uniform(lighting, "light_count", int(scene().lights.size()));
   }
   use_light_program(lighting);
@@ -238,7 +230,7 @@ void GlPeer::Work::draw_volumes() {
   if (pipeline.light_volumes.base) {
     glUseProgram(base);
     bind_surface(base, planes, textures, depth, scene(), pipeline, 0, 0);
-    bind_texture(base, "lights", kLightUnit, GL_TEXTURE_BUFFER, light_texels());
+    bind_texture(base, "lights", kLightUnit, GL_TEXTURE_BUFFER, renderer.buffers().light_texels());
     use_light_program(base);
     glBindVertexArray(none);
     glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -275,7 +267,7 @@ void GlPeer::Work::begin_forward() {
 void GlPeer::Work::draw_multipass() {
   const int lights = int(scene().lights.size());
   for (int i = lights == 0 ? -1 : 0; i < std::max(lights, 0); ++i) {
-    set_uniform(lighting, light_uniform(pipeline), i);
+    set_uniform(lighting, kDrawnLight, i);
     draw_scene(lighting);
     glDepthMask(GL_FALSE);
     glDepthFunc(GL_EQUAL);
@@ -290,7 +282,7 @@ void GlPeer::Work::draw_over() {
   set_geometry_state(pipeline.geometry, viewport, 0, 0);
   glUseProgram(over);
   const int unit = bind_surface(over, planes, textures, depth, scene(), pipeline, 0, 0);
-  bind_texture(over, "lights", unit, GL_TEXTURE_BUFFER, light_texels());
+  bind_texture(over, "lights", unit, GL_TEXTURE_BUFFER, renderer.buffers().light_texels());
   set_uniform(over, "light_count", int(scene().lights.size()));
   use_light_program(over);
   glDepthMask(GL_FALSE);
@@ -301,7 +293,7 @@ void GlPeer::Work::draw_over() {
 
 GlFrame GlPeer::Work::draw(bool read_back) {
   renderer.context().make_current();
-  light_texels();  // made before any is bound: making one binds it to whichever unit is active
+  renderer.buffers().light_texels();  // made before any is bound: making one binds it to whichever unit is active
   if (pipeline.light_program.used()) renderer.buffers().material_texels(pipeline);
   GlFrame frame;
   frame.capture.driver = renderer.context().info().line();

@@ -112,10 +112,8 @@ LightTiles light_tiles(const Scene& scene, const Pipeline& pipeline, std::span<c
   tiles.columns = (pipeline.width + tile - 1) / tile;
   tiles.rows = (pipeline.height + tile - 1) / tile;
   const std::vector<TileSurface> surfaces = tile_surfaces(scene, pipeline, depth, normals, tile);
-  const bool program = pipeline.light_program.used();
-  const std::vector<float> lights =
-      program ? program_light_records(scene) : light_records(scene, pipeline.light_model);
-  const auto floats = size_t(4 * (program ? kProgramLightTexels : LightLayout(pipeline.light_model).texels()));
+  const std::vector<float> lights = light_records(scene);
+  constexpr auto floats = size_t(4 * kLightTexels);
   uint32_t next = 0;
   for (const std::vector<uint32_t>& list : lists(scene, pipeline, tiles, surfaces)) {
     tiles.first.push_back(next);

@@ -166,11 +166,9 @@ class LightPass {
   }
 
   void use(GLuint program) const {
-    const bool by_program = pipeline_.light_program.used();
-    const bool materials = reads_materials(pipeline_.light_model) || by_program;
+    const bool materials = reads_materials(pipeline_.light_model) || pipeline_.light_program.used();
     // Made before any is bound: making one binds it to whichever unit is active.
-    const GLuint light_texels =
-        by_program ? buffers_.program_light_texels() : buffers_.light_texels(pipeline_.light_model);
+    const GLuint light_texels = buffers_.light_texels();
     const GLuint material_texels = materials ? buffers_.material_texels(pipeline_) : 0;
     glUseProgram(program);
     const int unit =
@@ -178,7 +176,6 @@ class LightPass {
     bind_texture(program, "lights", unit, GL_TEXTURE_BUFFER, light_texels);
     set_uniform(program, "light_count", lights_);
     if (materials) bind_texture(program, "materials", unit + 1, GL_TEXTURE_BUFFER, material_texels);
-    if (by_program) set_clip_rows(program, scene_, pipeline_);
     if (parameters_ != 0) bind_block(program, light_text_of(pipeline_)->outline.parameter_block.c_str(), parameters_);
   }
 
@@ -206,7 +203,7 @@ class LightPass {
     begin_forward();
     if (lights_ > 0) show(-1, t_.forward.framebuffer);
     for (int light = lights_ == 0 ? -1 : 0; light < lights_; ++light) {
-      set_uniform(programs_.light, light_uniform(pipeline_), light);
+      set_uniform(programs_.light, kDrawnLight, light);
       buffers_.draw_instances(solid());
       show(light, t_.forward.framebuffer);
       glDepthMask(GL_FALSE);
@@ -266,7 +263,7 @@ class LightPass {
       const LightExtent extent = drawn_extent(light, pipeline_.light_volumes);
       set_volume_state(pipeline_, is_mesh(extent), draw_.shift_x, draw_.shift_y);
       set_blend_state(blend);
-      set_uniform(programs_.light, light_uniform(pipeline_), i);
+      set_uniform(programs_.light, kDrawnLight, i);
       if (is_mesh(extent))
         draw_mesh(meshes[extent], light);
       else
@@ -326,6 +323,7 @@ GlslOptions GlRenderer::shader_options(const GlDraw& draw) const {
   options.rgb16f = rgb16f_;
   options.ambient = draw.planes || buffers_->has_type(LightType::ambient);
   options.directional = draw.planes || buffers_->has_type(LightType::directional);
+  options.spot = draw.planes || buffers_->has_type(LightType::spot);
   return options;
 }
 

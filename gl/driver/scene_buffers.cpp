@@ -162,17 +162,9 @@ bool SceneBuffers::has_large_meshes() const {
   return indices >= kLargeMesh * scene_->instances.size();
 }
 
-GLuint SceneBuffers::light_texels(const LightModel& model) {
-  if (!uploaded_ || *uploaded_ != model) {
-    lights_ = make_texel_buffer(light_records(*scene_, model));
-    uploaded_ = model;
-  }
+GLuint SceneBuffers::light_texels() {
+  if (lights_.texture == 0) lights_ = make_texel_buffer(light_records(*scene_));
   return lights_.texture;
-}
-
-GLuint SceneBuffers::program_light_texels() {
-  if (program_lights_.texture == 0) program_lights_ = make_texel_buffer(program_light_records(*scene_));
-  return program_lights_.texture;
 }
 
 GLuint SceneBuffers::material_texels(const Pipeline& pipeline) {

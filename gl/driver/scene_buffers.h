@@ -37,9 +37,7 @@ class SceneBuffers {
   void draw_each_instance(GLuint program, Surfaces which = Surfaces::all) const;
   const MapTextures& maps() const { return maps_; }
   bool has_large_meshes() const;  ///< so large that a draw an instance costs less than matrices read by every vertex
-  /// Light records in the model's LightLayout; made again when the model changes.
-  GLuint light_texels(const LightModel& model);
-  GLuint program_light_texels();  ///< light records for light programs
+  GLuint light_texels();  ///< light_records()
   /// Material records as material_text() reads them.
   GLuint material_texels(const Pipeline& pipeline);
 
@@ -64,8 +62,7 @@ class SceneBuffers {
   std::vector<InstanceRecord> records_;  ///< what instances_ holds
   bool has_own_faces_ = false;           ///< some run is not drawn with the pipeline's culling and front face
   GeometryState faces_;                  ///< of the pipeline that the records were made for
-  GlTexelBuffer lights_, program_lights_, materials_;
-  std::optional<LightModel> uploaded_;    ///< whose records lights_ holds
+  GlTexelBuffer lights_, materials_;
   std::optional<Pipeline> materials_of_;  ///< whose records materials_ holds
 };
 

@@ -231,10 +231,6 @@ std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, 
   return text;
 }
 
-std::string viewer_text(const LightModel& model) {
-  return model.viewer == Viewer::local ? "uniform vec3 eye;\n" : "uniform vec3 view_axis;\n";
-}
-
 std::string surface_uniforms_text(const Pipeline& pipeline, const GlslOptions& options) {
   const std::vector<GlslPlane> planes = planes_of(pipeline, options);
   std::string text;
@@ -252,7 +248,7 @@ std::string surface_uniforms_text(const Pipeline& pipeline, const GlslOptions& o
     text +=
         "uniform sampler2D depth_plane;\nuniform mat4 world_from_clip;\nuniform vec4 ndc_from_window;\n"
         "uniform vec2 ndc_origin;\nuniform vec2 depth_to_ndc;\n";
-  return text + viewer_text(pipeline.light_model);
+  return text;
 }
 
 std::string read_surface_text(const Pipeline& pipeline, const GlslOptions& options) {
@@ -265,19 +261,7 @@ std::string read_surface_text(const Pipeline& pipeline, const GlslOptions& optio
          ";\n"
          "  vec4 albedo = texelFetch(albedo_plane, pixel, 0);\n" +
          (reads_specular_plane(pipeline.light_model) ? "  vec4 gloss = texelFetch(specular_plane, pixel, 0);\n" : "") +
-         (pipeline.light_model.emission ? "  vec4 emission = texelFetch(emission_plane, pixel, 0);\n" : "") +
-         (pipeline.light_program.used() ? "" : surface_text(pipeline.light_model));
-}
-
-std::string lit_call_text(const LightModel& model, const std::string& buffer, const std::string& index) {
-  const int texels = LightLayout(model).texels();
-  const std::string n = std::to_string(texels);
-  std::string text = std::string("lit(P, N, V, albedo.rgb") + (reads_specular_plane(model) ? ", gloss" : "") +
-                     (model.emission ? ", emission.a" : "");
-  for (int i = 0; i < texels; ++i)
-    text +=
-        ", texelFetch(" + buffer + ", " + n + " * " + index + " + " + std::to_string(i) + ")" + (i >= 2 ? ".xyz" : "");
-  return text + ")";
+         (pipeline.light_model.emission ? "  vec4 emission = texelFetch(emission_plane, pixel, 0);\n" : "");
 }
 
 bool reads_materials(const LightModel& model) {

@@ -15,7 +15,7 @@ struct GlslOptions {
   bool primitive = true;  ///< of ids, id.primitive too
   bool uv = true;         ///< plane uv
   bool rgb16f = true;     ///< false: the driver cannot render to rgb16f, so rgba16f stands in
-  bool products = false;  ///< x^p by multiplications for an integer p up to 64: what a fast renderer writes
+  bool products = false;  ///< light models in Spelling::in_products
   bool instance_uniforms = false;  ///< matrices and base colour are uniforms, a draw an instance: for large meshes
   bool maps = false;               ///< materials have colour maps (1 where one has none) and alpha cutoffs, a draw each
   bool specular_maps = false;      ///< of maps: specular maps too, read where the model takes the material's colour
@@ -27,7 +27,7 @@ struct GlslOptions {
   bool unlit = false;         ///< some materials are unlit
   bool transparent = false;   ///< surfaces are drawn after the lights
   bool vertex_color = true;   ///< false: no mesh has any, so the base colour is the albedo
-  bool ambient = true, directional = true;  ///< light types the loop knows beside point
+  bool ambient = true, directional = true, spot = true;  ///< light types the loop knows beside point
 };
 
 /// What a format is stored as: rgba16f for rgb16f where the driver cannot render to that.
@@ -65,18 +65,6 @@ void set_light_shaders(const Pipeline& pipeline, const GlslOptions& options, Gls
 /// The pipeline as OpenGL draws it: with the planes that surfaces really have, those of a light program among them.
 Pipeline drawn_pipeline(const Pipeline& pipeline);
 
-/// What RGBA32F texels a light is in `lights`: (position or -direction, type), (colour times the model's damping,
-/// range); where the falloff reads it (k0, k1, k2, 0); where there are cones (direction, 0) and the cone's numbers
-/// (cos(outer) and the edge where it is fully lit; exponent: cos(outer), exponent; squared_penumbra: scale, offset);
-/// with an ambient share (ambient, 0). Types: 0 ambient, 1 directional, 2 point, 2.5 a spot that lights all around, 3
-/// spot.
-struct LightLayout {
-  explicit LightLayout(const LightModel& model);
-  bool attenuation, cone, ambient;
-  int texels() const { return 2 + int(attenuation) + 2 * int(cone) + int(ambient); }
-  bool operator==(const LightLayout&) const = default;
-};
-
 // Parts that the peers' shaders are made of too.
 
 std::string glsl_header(int version, std::string_view purpose);
@@ -96,23 +84,11 @@ inline constexpr int kMaterialTexels = 3;
 std::string material_text(const LightModel& model, const GlslOptions& options);
 std::string vertex_text(const Pipeline& pipeline, const GlslOptions& options);
 std::string fullscreen_vertex_text(int version);
-/// `vec3 lit(P, N, V, albedo, [gloss,] [ambient share,] place, color[, k][, axis, cone][, ambient])`: what one light
-/// adds; in the order albedo_last, before the albedo.
-std::string light_function_text(const LightModel& model, const GlslOptions& options);
-/// The uniform that `V` of surface_text() is made of.
-std::string viewer_text(const LightModel& model);
 /// Samplers and uniforms that read_surface_text() reads, without those of the lights.
 std::string surface_uniforms_text(const Pipeline& pipeline, const GlslOptions& options);
-/// Discards pixels without a surface; then `vec3 P, N, V` and `vec4 albedo` of the pixel, from the planes.
+/// Discards pixels without a surface; then `vec3 P, stored_normal` and `vec4 albedo` of the pixel, from the planes, and
+/// `gloss` and `emission` where the model reads them.
 std::string read_surface_text(const Pipeline& pipeline, const GlslOptions& options);
-/// `vec3 N, V` from `vec3 P` and `vec3 stored_normal`, in the pipeline's way.
-std::string surface_text(const LightModel& model);
-/// What the sum starts from; and the target, as the model makes it of a sum.
-std::string sum_start_text(const LightModel& model);
-std::string target_text(const LightModel& model, const std::string& sum);
-/// `lit(...)` of the light whose first texel in `buffer` is at `index` times LightLayout::texels().
-std::string lit_call_text(const LightModel& model, const std::string& buffer, const std::string& index);
-
 /// Whether a falloff is 0 from the range on, so that nothing else has to end there.
 bool ends_at_range(Falloff falloff);
 /// Of which lights the shader has to leave out what lies beyond their range.
@@ -121,12 +97,4 @@ struct RangeLimits {
   bool any() const { return point || spot; }
 };
 RangeLimits limits_range(const Pipeline& pipeline);
-/// `bool in_extent(vec3 P, int light)`, where limits_range() says that any is.
-std::string extent_text(const Pipeline& pipeline, const std::string& buffer);
-/// The call where the light reaches P, else 0.
-std::string bounded_call_text(const Pipeline& pipeline, const std::string& buffer, const std::string& light);
-/// Statements that sum lights [first, end) of `buffer` and write the target.
-std::string light_loop_text(const Pipeline& pipeline, const std::string& buffer, const std::string& first,
-                            const std::string& end);
-
 }  // namespace trueshade::oracle

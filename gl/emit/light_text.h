@@ -8,8 +8,8 @@
 #include "programs/front/light_outline.h"
 #include "scenes/pipeline/program_inputs.h"
 
-// Light passes that contain a light program (docs/light_programs.md): what is ours, then the user's text as it is, then
-// functions of ours that call it.
+// Light passes as GLSL: what is ours, then the text of a light program as it is (docs/light_programs.md), then functions
+// of ours that call it. Light models are light programs that we write (scenes/light_models).
 namespace trueshade::oracle {
 
 /// What the shaders of a pipeline must know of its light program.
@@ -28,14 +28,11 @@ ProgramReads surface_reads(const Pipeline& pipeline, const GlslOptions& options)
 /// The bytes of the program's block of parameters, by std140; empty where it has none.
 std::vector<uint8_t> parameter_bytes(const Pipeline& pipeline);
 
-/// The uniform with the number of a draw's light, -1 where there is none. Under a program `light` is a function.
+/// The uniform with the number of a draw's light, -1 where there is none.
 inline constexpr const char* kDrawnLight = "drawn_light";
-inline const char* light_uniform(const Pipeline& pipeline) {
-  return pipeline.light_program.used() ? kDrawnLight : "light";
-}
 
-/// A draw whose fragment shader runs a light program.
-struct ProgramDraw {
+/// A draw of a light pass.
+struct LightDraw {
   enum class Kind : uint8_t {
     sum,    ///< of all lights from `first` to `end`
     pass,   ///< one light over the scene; the first with what the sum starts from
@@ -49,15 +46,15 @@ struct ProgramDraw {
   std::string light = kDrawnLight;               ///< of the buffer
 };
 
-std::string program_fragment_text(const Pipeline& pipeline, const GlslOptions& options, const ProgramDraw& draw);
+std::string light_fragment_text(const Pipeline& pipeline, const GlslOptions& options, const LightDraw& draw);
 
 /// What stands before the user's text in such a shader, or the whole of another.
 std::string_view own_text(std::string_view shader);
 
-/// RGBA32F texels of a light in `lights` under a light program: position, range; direction, type; colour, cone;
-/// attenuation, penumbra; ambient, spot exponent; cos_inner, cos_outer, cone_scale, cone_offset;
-/// penumbra_slope, cutoff_slope, index, 0.
-inline constexpr int kProgramLightTexels = 7;
+/// RGBA32F texels of a light in the buffer `lights`, those that nearly all programs read first: position, type; colour,
+/// range; direction, cos_outer; attenuation, spot exponent; ambient, index; cone, penumbra, cos_inner, penumbra_slope;
+/// cone_scale, cone_offset, cutoff_slope, 0.
+inline constexpr int kLightTexels = 7;
 
 /// Where Vulkan binds the block of parameters, in set 0.
 inline constexpr int kParameterBinding = 7;

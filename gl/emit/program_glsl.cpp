@@ -1,8 +1,11 @@
-// Light passes of a light program as GLSL. Ours comes before the user's text, so that no macro of the user's changes
-// it, and calls the program by functions that stand behind the text.
+// Light passes as GLSL: around the text of a light program, which is the pipeline's or its light model's. Ours comes
+// before that text, so that no macro of a user's changes it, and calls the program by functions that stand behind it.
+#include <algorithm>
 #include <string>
+#include <string_view>
 
 #include "gl/emit/light_text.h"
+#include "scenes/light_models/stated_model.h"
 
 namespace trueshade::oracle {
 namespace {
@@ -11,17 +14,79 @@ namespace {
 constexpr std::string_view kUserText =
     "\nlayout(std140) uniform;  // so that a block which says nothing has these offsets\n#line 1 1\n";
 
-constexpr const char* kUniforms = R"(uniform vec3 view_axis;
-uniform vec4 clip_from_world[4];  // rows
-uniform vec4 view_from_world[4];
-uniform vec4 clip_from_view[4];
-uniform vec3 moment;              // seconds; the number of the frame, divided by 65536, and the rest
-uniform vec4 picture_place;       // x, y, width, height in the window
-uniform samplerBuffer lights;     // seven texels a light
+constexpr const char* kBuffer = R"(uniform samplerBuffer lights;     // seven texels a light
 uniform int light_count;
 layout(location = 0) out vec4 target;
 
 )";
+
+/// A member of View: the uniform that it is made of, and what it is where the program does not read it.
+struct ViewMember {
+  std::string_view name, uniform, value, unread;
+};
+constexpr ViewMember kViewMembers[] = {
+    {"eye", "vec3 eye", "eye", "vec3(0.0)"},
+    {"axis", "vec3 view_axis", "-view_axis", "vec3(0.0)"},
+    {"view", "vec4 view_from_world[4]", "ts_matrix_of(view_from_world)", "mat4(0.0)"},
+    {"projection", "vec4 clip_from_view[4]", "ts_matrix_of(clip_from_view)", "mat4(0.0)"},
+    {"view_projection", "vec4 view_projection[4]", "ts_matrix_of(view_projection)", "mat4(0.0)"},
+    {"size", "vec4 picture_place", "picture_place.zw", "vec2(0.0)"},
+    {"time", "vec3 moment", "moment.x", "0.0"},
+    {"frame", "vec3 moment", "uint(moment.y) * 65536u + uint(moment.z)", "0u"},
+};
+
+/// The light program of a pass.
+struct PassProgram {
+  std::string text;
+  programs::LightOutline outline;
+  ProgramReads reads;
+
+  bool reads_input(std::string_view name) const {  // "view.eye"; of a matrix some element
+    return std::any_of(outline.inputs.begin(), outline.inputs.end(), [name](const std::string& input) {
+      return input.starts_with(name) &&
+             (input.size() == name.size() || input[name.size()] == '.' || input[name.size()] == '[');
+    });
+  }
+  bool reads_pixel() const { return reads_input("surface.pixel_x") || reads_input("surface.pixel_y"); }
+};
+
+PassProgram pass_program(const Pipeline& p, const GlslOptions& options) {
+  if (p.light_program.used()) return {p.light_program.text, light_text_of(p)->outline, surface_reads(p, options)};
+  const LightModel& model = p.light_model;
+  PassProgram out;
+  out.text = program_of(model, "light_model", options.products ? Spelling::in_products : Spelling::for_drivers).text;
+  const auto has = [&out](std::string_view words) { return out.text.find(words) != std::string::npos; };
+  out.outline.defines_start = has("\nvec3 start(");
+  out.outline.defines_finish = has("\nvec4 finish(");
+  for (const char* member : {"eye", "axis"})
+    if (has("v." + std::string(member))) out.outline.inputs.push_back("view." + std::string(member));
+  out.reads.gloss = reads_specular_plane(model);
+  out.reads.emission = model.emission;
+  return out;
+}
+
+/// The uniforms that the program reads, each once, and of these `View ts_view()`.
+std::string view_uniforms_text(const PassProgram& program) {
+  std::string text;
+  const auto add = [&text](std::string_view uniform) {
+    const std::string line = "uniform " + std::string(uniform) + ";\n";
+    if (text.find(line) == std::string::npos) text += line;
+  };
+  for (const ViewMember& m : kViewMembers)
+    if (program.reads_input("view." + std::string(m.name))) add(m.uniform);
+  if (program.reads_pixel()) add("vec4 picture_place");
+  return text;
+}
+
+std::string view_text(const PassProgram& program) {
+  std::string text = "\nView ts_view() {\n  View v;\n";
+  for (const ViewMember& m : kViewMembers)
+    text += "  v." + std::string(m.name) + " = " +
+            std::string(program.reads_input("view." + std::string(m.name)) ? m.value : m.unread) + ";\n";
+  text += "  return v;\n}\n";
+  if (text.find("ts_matrix_of") == std::string::npos) return text;
+  return "\nmat4 ts_matrix_of(vec4 rows[4]) { return transpose(mat4(rows[0], rows[1], rows[2], rows[3])); }\n" + text;
+}
 
 constexpr const char* kLightOf = R"(
 Light ts_light_of(int i) {
@@ -29,45 +94,39 @@ Light ts_light_of(int i) {
   vec4 t3 = texelFetch(lights, 7 * i + 3), t4 = texelFetch(lights, 7 * i + 4), t5 = texelFetch(lights, 7 * i + 5);
   vec4 t6 = texelFetch(lights, 7 * i + 6);
   Light l;
-  l.type = uint(t1.w);
-  l.index = uint(t6.z);
+  l.type = ts_type_of(t0.w);
+  l.index = uint(t4.w);
   l.position = t0.xyz;
-  l.range = t0.w;
-  l.direction = t1.xyz;
-  l.color = t2.xyz;
+  l.range = t1.w;
+  l.direction = t2.xyz;
+  l.color = t1.xyz;
   l.attenuation = t3.xyz;
   l.ambient = t4.xyz;
-  l.cone = t2.w;
-  l.penumbra = t3.w;
-  l.cos_inner = t5.x;
-  l.cos_outer = t5.y;
-  l.cone_scale = t5.z;
-  l.cone_offset = t5.w;
-  l.spot_exponent = t4.w;
-  l.penumbra_slope = t6.x;
-  l.cutoff_slope = t6.y;
+  l.cone = t5.x;
+  l.penumbra = t5.y;
+  l.cos_inner = t5.z;
+  l.cos_outer = t2.w;
+  l.cone_scale = t6.x;
+  l.cone_offset = t6.y;
+  l.spot_exponent = t3.w;
+  l.penumbra_slope = t5.w;
+  l.cutoff_slope = t6.z;
   l.right = l.up = vec3(0.0);
   l.shadow = l.cookie = -1;
   for (int k = 0; k < 4; ++k) l.user[k] = vec4(0.0);
   return l;
 }
-
-mat4 ts_matrix_of(vec4 rows[4]) { return transpose(mat4(rows[0], rows[1], rows[2], rows[3])); }
-
-View ts_view() {
-  View v;
-  v.eye = eye;
-  v.axis = -view_axis;
-  v.view = ts_matrix_of(view_from_world);
-  v.projection = ts_matrix_of(clip_from_view);
-  v.view_projection = ts_matrix_of(clip_from_world);
-  v.size = picture_place.zw;
-  v.time = moment.x;
-  v.frame = uint(moment.y) * 65536u + uint(moment.z);
-  return v;
-}
 )";
-static_assert(kProgramLightTexels == 7);
+static_assert(kLightTexels == 7);
+
+/// The type of a light whose record says `type`. Types that no light of the scene has are left out, so that compilers
+/// leave out what a program does with them.
+std::string type_text(const GlslOptions& options) {
+  return std::string("uint ts_type_of(float type) {\n") +
+         (options.ambient ? "  if (type == 0.0) return light_type_ambient;\n" : "") +
+         (options.directional ? "  if (type == 1.0) return light_type_directional;\n" : "") +
+         (options.spot ? "  if (type == 3.0) return light_type_spot;\n" : "") + "  return light_type_point;\n}\n";
+}
 
 /// Functions behind the user's text, declared: those of them that main calls.
 std::string declared_text(const programs::LightOutline& has) {
@@ -102,7 +161,8 @@ std::string tail_text(const programs::LightOutline& has) {
 }
 
 /// `Surface s` of `vec3 P, stored_normal` and `vec4 albedo, gloss, emission`.
-std::string surface_fields_text(const Pipeline& p, const ProgramReads& reads) {
+std::string surface_fields_text(const Pipeline& p, const PassProgram& program) {
+  const ProgramReads& reads = program.reads;
   const bool forward = is_forward(p.strategy);
   const auto id = [&](bool read, const char* plane, const char* varying) {
     return !read     ? std::string("0u")
@@ -124,14 +184,14 @@ std::string surface_fields_text(const Pipeline& p, const ProgramReads& reads) {
          field("uv1", "vec2(0.0)") + field("tangent", "vec4(0.0)") +
          field("object", id(reads.object, "object_plane", "ids.x")) +
          field("material", id(reads.material, "material_plane", "ids.y")) +
-         field("pixel_x", "uint(gl_FragCoord.x - picture_place.x)") +
-         field("pixel_y", "uint(gl_FragCoord.y - picture_place.y)") +
+         field("pixel_x", program.reads_pixel() ? "uint(gl_FragCoord.x - picture_place.x)" : "0u") +
+         field("pixel_y", program.reads_pixel() ? "uint(gl_FragCoord.y - picture_place.y)" : "0u") +
          "  for (int k = 0; k < 4; ++k) s.user[k] = vec4(0.0);\n";
 }
 
 /// Surfaces whose material is unlit are done: the first draw gives them their albedo, and lights leave them out.
-std::string unlit_text(const ProgramDraw& draw) {
-  using Kind = ProgramDraw::Kind;
+std::string unlit_text(const LightDraw& draw) {
+  using Kind = LightDraw::Kind;
   const std::string leaves = draw.kind == Kind::pass    ? "    if (" + draw.light + " > 0) discard;\n"
                              : draw.kind == Kind::light ? "    discard;\n"
                                                         : "";
@@ -158,18 +218,17 @@ std::string order_text(const programs::LightOutline& has) {
 }
 
 /// Adds all lights.
-std::string loop_text(const Pipeline& p, const programs::LightOutline& has, const ProgramDraw& draw) {
+std::string loop_text(const Pipeline& p, const programs::LightOutline& has, const LightDraw& draw) {
   const std::string beyond = beyond_text_of(p);
   return "  for (int i = " + draw.first + "; i < " + draw.end + "; ++i) {\n    Light l = ts_light_of(i);\n" +
          (beyond.empty() ? "" : "    if (" + beyond + ") continue;\n") +
-         (has.variables.empty() ? "" : "    ts_fresh();\n") +
-         "    vec3 added = ts_added(s, l, v);\n    if (added != vec3(0.0)) sum += added;\n  }\n";
+         (has.variables.empty() ? "" : "    ts_fresh();\n") + "    sum += ts_added(s, l, v);\n  }\n";
 }
 
 /// Statements of a draw that has one light: its term becomes `sum`. In a pass over the scene the term of light 0 is
 /// added to what `sum` starts from.
-std::string one_light_text(const Pipeline& p, const programs::LightOutline& has, const ProgramDraw& draw) {
-  const bool pass = draw.kind == ProgramDraw::Kind::pass;
+std::string one_light_text(const Pipeline& p, const programs::LightOutline& has, const LightDraw& draw) {
+  const bool pass = draw.kind == LightDraw::Kind::pass;
   const std::string fresh = has.variables.empty() ? "" : "  ts_fresh();\n", beyond = beyond_text_of(p);
   const std::string light = "  Light l = ts_light_of(max(" + draw.light + ", 0));\n";
   const std::string is_beyond = beyond.empty() ? "" : "  bool beyond = " + beyond + ";\n";
@@ -180,8 +239,8 @@ std::string one_light_text(const Pipeline& p, const programs::LightOutline& has,
          draw.light + " == 0" + (beyond.empty() ? "" : " && !beyond") + " && added != vec3(0.0))\n    sum += added;\n";
 }
 
-std::string sum_text_of(const Pipeline& p, const programs::LightOutline& has, const ProgramDraw& draw) {
-  using Kind = ProgramDraw::Kind;
+std::string sum_text_of(const Pipeline& p, const programs::LightOutline& has, const LightDraw& draw) {
+  using Kind = LightDraw::Kind;
   const bool kept = !has.variables.empty(), starts = has.defines_start && draw.kind != Kind::light;
   std::string text = "  View v = ts_view();\n";
   if (kept) text += "  ts_keep();\n";
@@ -196,22 +255,21 @@ std::string sum_text_of(const Pipeline& p, const programs::LightOutline& has, co
 
 }  // namespace
 
-std::string program_fragment_text(const Pipeline& p, const GlslOptions& options, const ProgramDraw& draw) {
-  const std::shared_ptr<const LightText> program = light_text_of(p);
-  const programs::LightOutline& has = program->outline;
-  const ProgramReads reads = surface_reads(p, options);
-  const bool forward = is_forward(p.strategy);
+std::string light_fragment_text(const Pipeline& p, const GlslOptions& options, const LightDraw& draw) {
+  const PassProgram program = pass_program(p, options);
+  const programs::LightOutline& has = program.outline;
+  const bool forward = is_forward(p.strategy), unlit = options.unlit && p.light_program.used();
   std::string text = glsl_header(options.version, draw.what);
-  text += forward ? varyings_text(p, options, "in") + viewer_text(p.light_model) : surface_uniforms_text(p, options);
-  if (options.unlit || (forward && reads_materials(p.light_model))) text += "uniform samplerBuffer materials;\n";
-  text += draw.declared + kUniforms + std::string(programs::light_interface()) + kLightOf + declared_text(has) +
-          "\nvoid main() {\n";
+  text += forward ? varyings_text(p, options, "in") : surface_uniforms_text(p, options);
+  if (unlit || (forward && reads_materials(p.light_model))) text += "uniform samplerBuffer materials;\n";
+  text += draw.declared + view_uniforms_text(program) + kBuffer + std::string(programs::light_interface()) +
+          type_text(options) + kLightOf + view_text(program) + declared_text(has) + "\nvoid main() {\n";
   text += forward ? "  vec3 P = world_position;\n  vec3 stored_normal = " + normal_text(p, options) + ";\n" +
                         material_text(p.light_model, options)
                   : read_surface_text(p, options);
-  text += surface_fields_text(p, reads) + (options.unlit ? unlit_text(draw) : "") + draw.before +
-          sum_text_of(p, has, draw) + "}\n";
-  const std::string& file = p.light_program.text;
+  text += surface_fields_text(p, program) + (unlit ? unlit_text(draw) : "") + draw.before + sum_text_of(p, has, draw) +
+          "}\n";
+  const std::string& file = program.text;
   return text + std::string(kUserText) + file + (file.ends_with('\n') ? "" : "\n") + tail_text(has);
 }
 

@@ -7,7 +7,7 @@ namespace trueshade::oracle {
 
 /// A variable that a shader of ours declares outside its functions.
 struct ShaderVariable {
-  std::string name, type;  ///< "light", "int"
+  std::string name, type;  ///< "drawn_light", "int"
   int elements = 0;        ///< of an array; 0: it is none
   int location = -1;       ///< as the text says; -1: it says none
   bool operator==(const ShaderVariable&) const = default;

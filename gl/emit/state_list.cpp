@@ -75,12 +75,12 @@ constexpr Meaning kMeanings[] = {
      "it has a metallic_roughness_map"},
     {"lights", "RGBA32F texels, light_layout says what a light is"},
     {"light_count", "how many lights there are"},
-    {"light", "the draw's, counted from 0"},
     {kDrawnLight, "the draw's, counted from 0"},
     {"mesh", "1: corners are in the world, 0: a quad over the image"},
     {"eye", "the camera's position in the world"},
     {"view_axis", "the view's z axis in the world, towards the viewer, of unit length"},
     {"clip_from_world", "rows of projection * view in double, rounded to float once"},
+    {"view_projection", "the same"},
     {"view_from_world", "rows of the view's matrix, 0 where the camera is one matrix"},
     {"clip_from_view", "rows of the projection's matrix, 0 where the camera is one matrix"},
     {"moment", "seconds; the number of the frame, divided by 65536, and the rest"},
@@ -128,27 +128,11 @@ std::string uniforms(const ShaderTexts& shaders) {
   return strings_of(lines);
 }
 
-std::string light_layout(const Pipeline& pipeline) {
-  const LightModel& model = pipeline.light_model;
-  if (pipeline.light_program.used())
-    return strings_of({"x, y, z: position; w: range", "x, y, z: the way the light travels; w: type, as in the shader",
-                       "r, g, b: linear colour times intensity; w: cone, radians",
-                       "k0, k1, k2: attenuation; w: penumbra, radians", "r, g, b: its ambient share; w: spot_exponent",
-                       "cos_inner, cos_outer, cone_scale, cone_offset", "penumbra_slope, cutoff_slope, index, 0"});
-  std::vector<std::string> texels{
-      "x, y, z: position (directional: minus the direction it travels); "
-      "w: 0 ambient, 1 directional, 2 point, 2.5 spot without a cone, 3 spot",
-      "r, g, b: linear colour times intensity; a: range"};
-  const LightLayout layout(model);
-  if (layout.attenuation) texels.push_back("k0, k1, k2, 0: attenuation");
-  if (layout.cone) texels.push_back("x, y, z, 0: the way the light travels");
-  if (layout.cone)
-    texels.push_back(model.cone == Cone::exponent ? "cosine of the cutoff, exponent, 0, 0"
-                     : model.cone == Cone::squared_penumbra
-                         ? "scale, offset of the cosine, 0, 0"
-                         : "cosines where the light is 0 and where it is full, 0, 0");
-  if (layout.ambient) texels.push_back("r, g, b, 0: its ambient share");
-  return strings_of(texels);
+std::string light_layout() {
+  return strings_of({"x, y, z: position; w: type, as in the shader", "r, g, b: linear colour times intensity; a: range",
+                     "x, y, z: the way the light travels; w: cos_outer", "k0, k1, k2: attenuation; w: spot_exponent",
+                     "r, g, b: its ambient share; w: index", "cone, penumbra, radians; cos_inner; penumbra_slope",
+                     "cone_scale, cone_offset, cutoff_slope, 0"});
 }
 
 /// Scalars of the light program's block of parameters.
@@ -308,7 +292,7 @@ std::string state_list(const Pipeline& asked, const GlslOptions& options, Shader
          (options.transparent ? entry("transparent_draws", array_of(glass)) : "") +
          entry("post_passes", post_list(asked, options.version, api)) + entry("uniforms", uniforms(shaders)) +
          (pipeline.light_program.used() ? entry("parameters", parameters(pipeline)) : "") +
-         "  \"light_layout\": " + light_layout(pipeline);
+         "  \"light_layout\": " + light_layout();
 }
 
 }  // namespace trueshade::oracle

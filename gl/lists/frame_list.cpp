@@ -115,7 +115,7 @@ class FrameLister {
     const std::vector<InstanceRecord> records = instance_records(scene_, pipeline_);
     list_.buffers.push_back({"instances", bytes_of(std::span<const InstanceRecord>(records)), false});
     const bool program = pipeline_.light_program.used();
-    add_texels("lights", program ? program_light_records(scene_) : light_records(scene_, pipeline_.light_model));
+    add_texels("lights", light_records(scene_));
     if (const std::vector<uint8_t> block = parameter_bytes(pipeline_); !block.empty())
       list_.buffers.push_back({kParameters, block, false});
     samplers_.push_back({"lights", "lights"});
@@ -283,7 +283,7 @@ class FrameLister {
       return add_scene_passes("lights", plans[0], solid_, {"target"}, "light_depth", true, {});
     for (int light = lights == 0 ? -1 : 0; light < lights; ++light) {
       add_scene_passes(light <= 0 ? "first light" : "other lights", plans[light <= 0 ? 0 : 1], solid_, {"target"},
-                       "light_depth", light <= 0, {{light_uniform(pipeline_), {double(light)}}});
+                       "light_depth", light <= 0, {{kDrawnLight, {double(light)}}});
       if (!list_.passes.back().draws.empty()) list_.passes.back().draws.back().light = light;
     }
   }
@@ -341,7 +341,7 @@ class FrameLister {
     ListedDraw draw;
     draw.vertices = "quad", draw.count = 4;
     draw.uniforms.push_back({"mesh", {0}});
-    if (light >= 0) draw.uniforms.push_back({light_uniform(pipeline_), {double(light)}});
+    if (light >= 0) draw.uniforms.push_back({kDrawnLight, {double(light)}});
     draw.light = light;
     return draw;
   }

@@ -60,6 +60,7 @@ std::vector<NamedValue> frame_values(const Scene& scene, const Pipeline& pipelin
                               {"world_from_clip", {}}};
   for (size_t i = 0; i < 16; ++i) out[3].numbers.push_back(rounded(inverse[i]));
   add_window_values(pipeline, shift_x, shift_y, out);
+  out.push_back({"view_projection", rows_of(clip)});
   out.push_back({"picture_place", {double(shift_x), double(shift_y), double(pipeline.width), double(pipeline.height)}});
   add_program_values(scene, pipeline, out);
   return out;

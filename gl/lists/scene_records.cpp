@@ -151,68 +151,22 @@ std::vector<float> more_uv_texels(const Mesh& mesh) {
   return out;
 }
 
-ConeNumbers cone_numbers(const Light& light, Cone cone) {
-  if (light.type != LightType::spot || cone == Cone::none) return {};
-  const double inner = std::cos(double(light.cone_rad)), outer_rad = double(light.cone_rad + light.penumbra_rad);
-  const double outer = std::cos(outer_rad);
-  switch (cone) {
-    case Cone::none:
-      break;
-    case Cone::smooth_cutoff:
-      return {true, float(outer), float(outer * 0.9 + 0.1)};
-    case Cone::smooth_penumbra:
-      return {true, float(outer), float(inner)};
-    case Cone::exponent:
-      return {outer_rad < double(3.14159265f), float(outer), light.spot_exponent};
-    case Cone::squared_penumbra: {
-      const double scale = 1 / std::max(0.001, inner - outer);
-      return {true, float(scale), float(-outer * scale)};
-    }
-  }
-  return {};
-}
-
-std::vector<float> light_records(const Scene& scene, const LightModel& model) {
-  const LightLayout layout(model);
+std::vector<float> light_records(const Scene& scene) {
   std::vector<float> out;
-  out.reserve(4 * size_t(layout.texels()) * scene.lights.size());
-  for (const Light& light : scene.lights) {
-    const bool directional = light.type == LightType::directional;
-    const glm::vec3 place = directional ? -light.direction : light.position;
-    const ConeNumbers cone = cone_numbers(light, model.cone);
-    const float type = light.type == LightType::ambient ? 0.0f
-                       : directional                    ? 1.0f
-                       : cone.narrow                    ? 3.0f
-                       : light.type == LightType::spot  ? 2.5f
-                                                        : 2.0f;
-    const glm::vec3 color = light.color * model.damping;
-    const auto add = [&](const glm::vec3& v, float w) { out.insert(out.end(), {v.x, v.y, v.z, w}); };
-    add(place, type);
-    add(color, light.range);
-    if (layout.attenuation) add(light.attenuation, 0.0f);
-    if (layout.cone) add(light.direction, 0.0f);
-    if (layout.cone) add({cone.first, cone.second, 0.0f}, 0.0f);
-    if (layout.ambient) add(light.ambient, 0.0f);
-  }
-  return out;
-}
-
-std::vector<float> program_light_records(const Scene& scene) {
-  std::vector<float> out;
-  out.reserve(4 * size_t(kProgramLightTexels) * scene.lights.size());
+  out.reserve(4 * size_t(kLightTexels) * scene.lights.size());
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const auto add = [&](const glm::vec3& v, float w) { out.insert(out.end(), {v.x, v.y, v.z, w}); };
     const Light& light = scene.lights[i];
     const LightCone cone(light);
-    add(light.position, light.range);
-    add(light.direction, float(light.type));
-    add(light.color, light.cone_rad);
-    add(light.attenuation, light.penumbra_rad);
-    add(light.ambient, light.spot_exponent);
-    add({cone.cos_inner, cone.cos_outer, cone.scale}, cone.offset);
-    add({cone.penumbra_slope, cone.cutoff_slope, float(i)}, 0.0f);
+    add(light.position, float(light.type));
+    add(light.color, light.range);
+    add(light.direction, cone.cos_outer);
+    add(light.attenuation, light.spot_exponent);
+    add(light.ambient, float(i));
+    add({light.cone_rad, light.penumbra_rad, cone.cos_inner}, cone.penumbra_slope);
+    add({cone.scale, cone.offset, cone.cutoff_slope}, 0.0f);
   }
-  if (out.empty()) out.resize(4 * size_t(kProgramLightTexels));
+  if (out.empty()) out.resize(4 * size_t(kLightTexels));
   return out;
 }
 

@@ -46,18 +46,8 @@ std::vector<float> tangent_texels(const Mesh& mesh, bool all_sets);
 /// u and v of the sets behind the first, kMaxUvSets - 1 texels a vertex.
 std::vector<float> more_uv_texels(const Mesh& mesh);
 
-/// A spot light's cone as shaders read it: LightLayout says what the numbers are.
-struct ConeNumbers {
-  bool narrow = false;  ///< false: a light without a cone, or whose cone is the whole sphere
-  float first = 0, second = 0;
-};
-ConeNumbers cone_numbers(const Light& light, Cone cone);
-
-/// The light records as the shaders read them, RGBA a texel.
-std::vector<float> light_records(const Scene& scene, const LightModel& model);
-
-/// The same for light programs, kProgramLightTexels a light; of no light, zeros for one.
-std::vector<float> program_light_records(const Scene& scene);
+/// The light records as the shaders read them, kLightTexels RGBA texels a light; of no light, zeros for one.
+std::vector<float> light_records(const Scene& scene);
 
 /// Material records as material_text() reads them.
 std::vector<float> material_records(const Scene& scene, const Pipeline& pipeline);

@@ -283,9 +283,8 @@ class VulkanDrawing {
   }
 
   static bool is_of_light(const ListedDraw& d) {
-    for (const char* name : {"light", oracle::kDrawnLight})
-      if (const NamedValue* light = value_of(d.uniforms, name); light != nullptr) return light->numbers[0] >= 0;
-    return false;
+    const NamedValue* light = value_of(d.uniforms, oracle::kDrawnLight);
+    return light != nullptr && light->numbers[0] >= 0;
   }
 
   /// The target where no light is drawn, as there is none or nothing that it lights.

@@ -28,8 +28,19 @@ std::string literal(const glm::vec3& v) {
   return "vec3(" + literal(v.x) + ", " + literal(v.y) + ", " + literal(v.z) + ")";
 }
 
+/// A function of x^p, by squaring.
+std::string whole_power_text(int p) {
+  std::string text = "float whole_power(float x) {\n  float s = x;\n";
+  int bit = 1;
+  while (2 * bit <= p) bit *= 2;
+  for (bit /= 2; bit > 0; bit /= 2) text += std::string("  s = s * s") + ((p & bit) != 0 ? " * x;\n" : ";\n");
+  return text + "  return s;\n}\n";
+}
+
 bool is_even(float shininess) { return shininess <= 8192.0f && std::fmod(shininess, 2.0f) == 0.0f; }
 bool is_squared(const LightModel& m) { return m.specular == Specular::blinn_phong && is_even(m.shininess); }
+/// What the cosine, or its square, is raised to.
+float power_of(const LightModel& m, bool squared) { return squared ? m.shininess / 2 : m.shininess; }
 
 /// The names behind `#ifdef` that hold for a model.
 Terms terms_of(const LightModel& m, Spelling spelling) {
@@ -54,12 +65,20 @@ Terms terms_of(const LightModel& m, Spelling spelling) {
   add(own, "own_gloss");
   add(shines && !own && !tinted, "own_color");
   add(tinted, "shines_by_albedo");
-  const bool usual = spelling == Spelling::as_renderers_write;
+  const bool usual = spelling == Spelling::as_renderers_write, driven = spelling >= Spelling::for_drivers;
+  const bool squared = !own && !usual && is_squared(m);
+  const float power = power_of(m, squared);
   add(usual, "as_renderers_write");
-  add(shines && !own && !usual && is_squared(m), "squared");
-  add(shines && !own && !usual && !is_squared(m), "not_squared");
-  add(shines && m.specular_masked && lights_behind, "masked_behind");
-  add(!lights_behind, "dark_behind");
+  add(driven, "for_drivers");
+  add(!driven, "counts");
+  add(shines && squared, "squared");
+  add(shines && !usual && !squared && (!own || driven), "not_squared");
+  add(shines && own && !usual && !driven, "by_own_power");
+  add(shines && m.specular_masked && (lights_behind || driven), "masked_behind");
+  add(!lights_behind && !driven, "dark_behind");
+  add(shines && !own && spelling == Spelling::in_products && power >= 1 && power <= 64 && power == std::floor(power),
+      "products");
+  add((shines && !terms.contains("products")) || m.cone == Cone::exponent, "powers");
   add(m.emission, "emission");
   add(m.global_ambient != glm::vec3(0.0f), "global_ambient_given");
   add(m.emission || m.global_ambient != glm::vec3(0.0f), "starts");
@@ -76,10 +95,11 @@ std::string constants_of(const LightModel& m, const Terms& terms) {
     text += "const " + std::string(type) + " " + name + " = " + value + ";\n";
   };
   if (terms.contains("shines") && !terms.contains("own_gloss"))
-    add("float", "power", literal(terms.contains("squared") ? m.shininess / 2 : m.shininess));
+    add("float", "power", literal(power_of(m, terms.contains("squared"))));
   if (terms.contains("own_color")) add("vec3", "specular_color", literal(m.specular_color));
   if (terms.contains("damped")) add("float", "damping", literal(m.damping));
   if (terms.contains("global_ambient_given")) add("vec3", "global_ambient", literal(m.global_ambient));
+  if (terms.contains("products")) text += whole_power_text(int(power_of(m, terms.contains("squared"))));
   return text.empty() ? text : text + "\n";
 }
 

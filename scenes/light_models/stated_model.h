@@ -7,10 +7,13 @@
 
 namespace trueshade {
 
-/// The same formula in other operations: the ones of our own arithmetic, which need fewer roots, or N.L and N.H of unit
-/// vectors and the whole power, as renderers write them. What a legal driver may compute of the second holds what it may
-/// compute of the first.
-enum class Spelling : uint8_t { own, as_renderers_write };
+/// The same formula in other operations.
+enum class Spelling : uint8_t {
+  own,                 ///< those of our own arithmetic, which need fewer roots
+  as_renderers_write,  ///< N.L and N.H of unit vectors, and the whole power: what is legal of these holds the others
+  for_drivers,         ///< what drivers are given: inverse roots, no branch, 0 where GLSL leaves a result open
+  in_products          ///< for_drivers, and a whole power up to 64 by multiplications, as fast renderers write it
+};
 
 /// A light model as a light program: scenes/light_models/presets/terms.glsl with the lines of its terms alone, behind
 /// its numbers. `name` stands for the program's file. Surfaces are as the model's own planes have them: under

@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "gl/emit/glsl.h"
+#include "gl/emit/light_text.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
@@ -65,7 +65,7 @@ TEST_CASE("A tile lists every light that lights one of its pixels, and few that 
   Pipeline pipeline = presets().front().pipeline;
   pipeline.width = kWidth, pipeline.height = kHeight;
   pipeline.gbuffer.normal.format = Format::rgba16f;
-  const auto floats = size_t(4 * LightLayout(pipeline.light_model).texels());
+  constexpr auto floats = size_t(4 * kLightTexels);
   for (const char* name : {"city,lights=80", "sphere", "rabbits,lights=60", "atrium"}) {
     const Scene scene = builtin_scene(name);
     const Shown s = shown(scene, pipeline);

@@ -10,6 +10,7 @@
 #include "gl/driver/read_back.h"
 #include "gl/driver/scene_buffers.h"
 #include "gl/driver/surface_uniforms.h"
+#include "gl/emit/light_text.h"
 #include "oracle/matrices.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/pipeline/light_mesh.h"
@@ -138,7 +139,7 @@ class ListedRenderer {
     const GLuint p = program(draw["shaders"]);
     glUseProgram(p);
     const int unit = bind_surface(p, planes_, textures_, depth_, scene_, pipeline_, 0, 0);
-    bind_texture(p, "lights", unit, GL_TEXTURE_BUFFER, buffers_.light_texels(pipeline_.light_model));
+    bind_texture(p, "lights", unit, GL_TEXTURE_BUFFER, buffers_.light_texels());
     set_uniform(p, "light_count", int(scene_.lights.size()));
     if (reads_materials(pipeline_.light_model))
       bind_texture(p, "materials", unit + 1, GL_TEXTURE_BUFFER, buffers_.material_texels(pipeline_));
@@ -158,11 +159,11 @@ class ListedRenderer {
         glBindVertexArray(none);
         glDrawArrays(GL_TRIANGLES, 0, 3);
       } else if (kind(draw, "of") != "others") {
-        set_uniform(p, "light", 0);
+        set_uniform(p, kDrawnLight, 0);
         buffers_.draw_instances(solid_);
       } else {
         for (int light = 1; light < int(scene_.lights.size()); ++light) {
-          set_uniform(p, "light", light);
+          set_uniform(p, kDrawnLight, light);
           buffers_.draw_instances(solid_);
         }
       }
@@ -184,7 +185,7 @@ class ListedRenderer {
       const json* draw = entry(is_mesh(extent) ? "meshes" : "quads");
       REQUIRE(draw != nullptr);
       const GLuint p = use(*draw);
-      set_uniform(p, "light", int(i));
+      set_uniform(p, kDrawnLight, int(i));
       draw_corners(array, *draw, p, is_mesh(extent) ? &meshes[extent] : nullptr, &scene_.lights[i]);
     }
   }

@@ -421,10 +421,10 @@ TEST_CASE("A parameter that had another value is named, and what a picture's lig
   LightProgram brighter = right;
   brighter.parameters[0].value[0] = 9;
   // An exposure of the picture looks the same.
-  CHECK_THAT(names_of_findings(brighter, scene), Catch::Matchers::Contains("light-shader-parameter-gain"));
+  CHECK_THAT(names_of_findings(brighter, scene), Catch::Contains("light-shader-parameter-gain"));
   Scene fewer = scene;
   fewer.lights[3].color = {0, 0, 0};
-  CHECK_THAT(names_of_findings(right, fewer), Catch::Matchers::StartsWith("light-missing=3"));
+  CHECK_THAT(names_of_findings(right, fewer), Catch::StartsWith("light-missing=3"));
 }
 
 TEST_CASE("Where a light program may give NaN nothing is convicted, and nothing passes for right") {

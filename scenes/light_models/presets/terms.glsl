@@ -10,9 +10,18 @@ struct Arrival {   // of one light at one surface
   bool reaches;    // false outside the light's range or cone: it adds nothing
 };
 
+vec3 unit(vec3 v) {
+#ifdef for_drivers
+  float l2 = dot(v, v);  // 0 stays 0
+  return v * (l2 > 0.0 ? inversesqrt(l2) : 0.0);
+#else
+  return normalize(v);
+#endif
+}
+
 vec3 normal_of(Surface s) {
 #ifdef renormalize
-  return normalize(s.normal);
+  return unit(s.normal);
 #else
   return s.normal;
 #endif
@@ -26,6 +35,16 @@ vec3 color_of(Light l) {
 #endif
 }
 
+#ifdef powers
+float power_of(float x, float p) {
+#ifdef for_drivers
+  return p == 0.0 ? 1.0 : pow(x, p);  // GLSL leaves pow(0, 0) open
+#else
+  return pow(x, p);
+#endif
+}
+
+#endif
 Arrival arrival(Surface s, Light l) {
   vec3 n = normal_of(s);
   if (l.type == light_type_directional) {
@@ -33,7 +52,11 @@ Arrival arrival(Surface s, Light l) {
     return Arrival(-l.direction, nl, nl, 1.0, true);
   }
   vec3 offset = l.position - s.position;
+#ifdef for_drivers
+  float d2 = dot(offset, offset), r = d2 > 0.0 ? inversesqrt(d2) : 0.0, d = d2 * r;
+#else
   float d2 = dot(offset, offset), d = sqrt(d2), r = d2 > 0.0 ? 1.0 / d : 0.0;
+#endif
   bool reaches = d2 <= 3.40282347e38;
 #ifdef falloff_linear_range
   float f = 1.0 - d / l.range;
@@ -71,7 +94,7 @@ Arrival arrival(Surface s, Light l) {
 #endif
 #ifdef cone_exponent
     bool all_around = l.cone + l.penumbra >= 3.14159274;
-    float g = all_around ? 1.0 : c >= l.cos_outer ? pow(max(c, 0.0), l.spot_exponent) : 0.0;
+    float g = all_around ? 1.0 : c >= l.cos_outer ? power_of(max(c, 0.0), l.spot_exponent) : 0.0;
 #endif
 #ifdef cone_squared_penumbra
     float t = clamp(c * l.cone_scale + l.cone_offset, 0.0, 1.0);
@@ -94,7 +117,7 @@ Arrival arrival(Surface s, Light l) {
 // The cosine of the highlight to the shininess.
 float highlight(Surface s, View v, Arrival at) {
 #ifdef viewer_local
-  vec3 n = normal_of(s), eye = normalize(v.eye - s.position);
+  vec3 n = normal_of(s), eye = unit(v.eye - s.position);
 #else
   vec3 n = normal_of(s), eye = -v.axis;
 #endif
@@ -106,11 +129,11 @@ float highlight(Surface s, View v, Arrival at) {
   float x = min(1.0, max(dot(reflected, eye), 0.0));
 #else
 #ifdef as_renderers_write
-  float x = max(dot(n, normalize(at.to + eye)), 0.0);
+  float x = max(dot(n, unit(at.to + eye)), 0.0);
 #else
   vec3 h = at.to + eye;  // the half vector, of any length
   float h2 = dot(h, h), t = max(dot(n, h), 0.0);
-#ifdef own_gloss
+#ifdef by_own_power
   bool even = floor(power * 0.5) * 2.0 == power;  // then no root is needed
   float x = h2 > 0.0 ? (even ? (t * t) / h2 : t / sqrt(h2)) : 0.0;
   power = even ? power * 0.5 : power;
@@ -126,30 +149,22 @@ float highlight(Surface s, View v, Arrival at) {
   x = min(1.0, x);
 #endif
 #endif
-#ifdef masked_behind
-  return at.facing > 0.0 ? pow(x, power) : 0.0;
+#ifdef products
+  float shine = whole_power(x);
 #else
-  return pow(x, power);
+  float shine = power_of(x, power);
+#endif
+#ifdef masked_behind
+  return at.facing > 0.0 ? shine : 0.0;
+#else
+  return shine;
 #endif
 }
 #endif
 
-vec3 light(Surface s, Light l, View v) {
+// Of a light that reaches the surface, what the surface sends to the eye.
+vec3 reflected_light(Surface s, Light l, View v, Arrival at) {
   vec3 albedo = s.albedo.rgb, color = color_of(l);
-#ifdef order_albedo_last
-  vec3 ambient = color;
-#else
-  vec3 ambient = albedo * color;
-#endif
-#ifdef emission
-  ambient = ambient * s.occlusion;
-#endif
-  if (l.type == light_type_ambient) return ambient;
-  Arrival at = arrival(s, l);
-  if (!at.reaches) return vec3(0.0);
-#ifdef dark_behind
-  if (!(at.facing > 0.0)) return vec3(0.0);
-#endif
 #ifdef diffuse_clamped
   float c = max(at.cosine, 0.0);
 #else
@@ -208,11 +223,36 @@ vec3 light(Surface s, Light l, View v) {
 #endif
 }
 
+vec3 light(Surface s, Light l, View v) {
+#ifdef order_albedo_last
+  vec3 ambient = color_of(l);
+#else
+  vec3 ambient = s.albedo.rgb * color_of(l);
+#endif
+#ifdef emission
+  ambient = ambient * s.occlusion;
+#endif
+  if (l.type == light_type_ambient) return ambient;
+  Arrival at = arrival(s, l);
+#ifdef for_drivers
+  vec3 added = reflected_light(s, l, v, at);
+  return at.reaches ? added : vec3(0.0);
+#else
+  if (!at.reaches) return vec3(0.0);
+#ifdef dark_behind
+  if (!(at.facing > 0.0)) return vec3(0.0);
+#endif
+  return reflected_light(s, l, v, at);
+#endif
+}
+
+#ifdef counts
 bool reaches(Surface s, Light l, View v) {
   if (l.type == light_type_ambient) return false;
   Arrival at = arrival(s, l);
   return at.reaches && at.facing > 0.0;
 }
+#endif
 #ifdef starts
 
 vec3 start(Surface s, View v) {
