@@ -40,6 +40,7 @@ class NodeBuilder {
 
   /// What nodes made from here on are marked with.
   void set_source(uint32_t line, uint32_t origin) { line_ = line, origin_ = origin; }
+  uint32_t origin() const { return origin_; }
   void set_precise(bool precise) { precise_ = precise; }
 
   Program& program() { return program_; }

@@ -57,10 +57,10 @@ Scalars Lowering::call(uint32_t id, std::span<const uint32_t> arguments) {
   const uint32_t line = line_;
   run_blocks(0, frame().order->block.size());
   line_ = line;
-  Scalars returned = std::move(frame().returned);
+  const bool nowhere = frame().returns.empty();
+  Scalars out = !nowhere ? returned() : m_.type(type.element).scalars > 0 ? zeros(type.element) : Scalars{};
   frames_.pop_back();
-  if (returned.empty() && m_.type(type.element).scalars > 0) returned = zeros(type.element);
-  return returned;
+  return out;
 }
 
 /// Runs the blocks at these positions, each once, loops until no lane is left in them.
@@ -219,12 +219,24 @@ void Lowering::leave(const Scalars* value) {
   Frame& f = frame();
   for (Construct& open : f.constructs) open.mask = b_.both(open.mask, b_.negation(f.mask));
   f.present = b_.both(f.present, b_.negation(f.mask));
-  if (value == nullptr) return;
-  if (f.returned.empty()) {
-    f.returned = *value;
-    return;
+  if (value != nullptr) f.returns.push_back({f.mask, *value, line_, b_.origin()});
+}
+
+/// What the function returns. Where some lanes return 0, as light() does of surfaces that turn away, nothing else has to
+/// be chosen for these: it is 0 unless another return has the lane.
+Scalars Lowering::returned() {
+  const std::vector<Return>& all = frame().returns;
+  Scalars out = all.front().value;
+  for (size_t i = 0; i < out.size(); ++i) {
+    const auto is_zero = [&](const Return& r) { return b_.is_constant(r.value[i]) && b_.node(r.value[i]).bits == 0; };
+    const auto zero = std::find_if(all.begin(), all.end(), is_zero);
+    if (zero != all.end()) out[i] = zero->value[i];
+    for (const Return& r : all) {
+      b_.set_source(r.line, r.origin);
+      if (zero != all.end() ? !is_zero(r) : &r != &all.front()) out[i] = b_.select(r.mask, r.value[i], out[i]);
+    }
   }
-  for (size_t i = 0; i < value->size(); ++i) f.returned[i] = b_.select(f.mask, (*value)[i], f.returned[i]);
+  return out;
 }
 
 }  // namespace trueshade::programs

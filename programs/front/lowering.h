@@ -63,6 +63,12 @@ class Lowering {
     size_t first, end;
     NodeId mask;
   };
+  /// What some lanes return. No two returns have a lane in common.
+  struct Return {
+    NodeId mask;
+    Scalars value;
+    uint32_t line, origin;  ///< NodeBuilder::set_source()
+  };
   struct Frame {
     const SpirvFunction* function = nullptr;
     const BlockOrder* order = nullptr;
@@ -73,7 +79,7 @@ class Lowering {
     uint32_t label = 0;                    ///< of the block
     std::vector<std::vector<Edge>> edges;  ///< by position, to blocks that have not run yet
     std::vector<Construct> constructs;
-    Scalars returned;
+    std::vector<Return> returns;
     size_t loops = 0;  ///< that are open
   };
 
@@ -88,6 +94,7 @@ class Lowering {
   void run_switch(const SpirvInstruction& one);
   void go(uint32_t label, NodeId mask);
   void leave(const Scalars* value);
+  Scalars returned();
   const BlockOrder& order_of(const SpirvFunction& function);
   Frame& frame() { return frames_.back(); }
   void work(size_t steps);

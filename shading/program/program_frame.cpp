@@ -6,9 +6,11 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string_view>
 
 #include "core/error.h"
+#include "programs/building/specialised.h"
 #include "programs/front/light_program.h"
 #include "raster/view.h"
 #include "scenes/light_cone.h"
@@ -104,17 +106,31 @@ std::optional<uint32_t> of_parameters(const ProgramInput& input, const LightProg
 
 }  // namespace
 
-std::shared_ptr<const Executable> executable_of(const LightProgram& program) {
+namespace {
+
+/// types: of lights, all where it is empty.
+std::shared_ptr<const Executable> kept_executable(const LightProgram& program, const std::vector<uint32_t>& types) {
   static std::mutex mutex;
-  static std::map<std::string, std::shared_ptr<const Executable>> kept;
+  static std::map<std::pair<std::string, std::vector<uint32_t>>, std::shared_ptr<const Executable>> kept;
   constexpr size_t kMost = 64;  // programs of a process; then all are compiled anew
   const std::shared_ptr<const programs::Program> made = programs::kept_program(program.file, program.text);
-  const std::string key = made->name + '\n' + made->sha256;
+  const std::pair key(made->name + '\n' + made->sha256, types);
   const std::lock_guard lock(mutex);
   if (const auto there = kept.find(key); there != kept.end()) return there->second;
   if (kept.size() >= kMost) kept.clear();
   const auto wanted = made->defines_reaches ? programs::Wanted::light_and_reaches : programs::Wanted::light;
-  return kept[key] = std::make_shared<Executable>(programs::executable_of(*made, wanted));
+  const programs::Program of_types = types.empty() ? *made : programs::specialised(*made, {{"light.type", types}});
+  return kept[key] = std::make_shared<Executable>(programs::executable_of(of_types, wanted));
+}
+
+}  // namespace
+
+std::shared_ptr<const Executable> executable_of(const LightProgram& program) { return kept_executable(program, {}); }
+
+std::shared_ptr<const Executable> executable_of(const LightProgram& program, std::span<const Light> lights) {
+  std::set<uint32_t> types;
+  for (const Light& light : lights) types.insert(uint32_t(light.type));
+  return kept_executable(program, {types.begin(), types.end()});
 }
 
 Pipeline with_planes_of_program(const Pipeline& pipeline) {
@@ -124,10 +140,15 @@ Pipeline with_planes_of_program(const Pipeline& pipeline) {
 }
 
 ProgramFrame::ProgramFrame(const Scene& scene, const Pipeline& pipeline, Unlit unlit, const CapturedFields& there)
-    : executable_(trueshade::executable_of(pipeline.light_program)),
-      reads_(program_reads(executable_->program.name, input_names(*executable_))),
-      constants_(*executable_) {
-  require_fields(executable_->program.name, reads_.captured, there);
+    : executable_(trueshade::executable_of(pipeline.light_program, scene.lights)), constants_(*executable_) {
+  // What it lacks is said whatever the lights are.
+  const std::shared_ptr<const Executable> whole = trueshade::executable_of(pipeline.light_program);
+  const std::vector<std::string> inputs = input_names(*whole);
+  const std::string& name = whole->program.name;
+  reads_ = program_reads(name, inputs);
+  require_fields(name, reads_.captured, there);
+  check_values(pipeline.light_program, inputs, whole->program.parameters);
+  check_camera(scene.camera, name, inputs);
   for (const Material& m : scene.materials) {
     unlit_.push_back(m.unlit && unlit == Unlit::shows_albedo);
     has_unlit_ = has_unlit_ || unlit_.back() != 0;
@@ -139,8 +160,6 @@ ProgramFrame::ProgramFrame(const Scene& scene, const Pipeline& pipeline, Unlit u
 void ProgramFrame::set_constants(const Scene& scene, const Pipeline& pipeline) {
   const programs::Program& program = executable_->program;
   const programs::Stage& stage = executable_->at(Rate::constant);
-  check_values(pipeline.light_program, input_names(*executable_), program.parameters);
-  check_camera(scene.camera, program.name, input_names(*executable_));
   for (size_t i = 0; i < stage.inputs.size(); ++i) {
     const ProgramInput& input = program.inputs[stage.inputs[i]];
     std::optional<uint32_t> value = of_view(input.name, scene, pipeline);

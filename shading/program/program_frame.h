@@ -14,6 +14,9 @@ namespace trueshade {
 /// The program of a pipeline, compiled once a process for each text. Error(bad_input) names the place in its file.
 std::shared_ptr<const programs::Executable> executable_of(const LightProgram& program);
 
+/// The same for lights of those types alone, which are the scene's: without what others would need.
+std::shared_ptr<const programs::Executable> executable_of(const LightProgram& program, std::span<const Light> lights);
+
 /// The same pipeline with the planes that its light program reads, and nothing of light_model that bounds a light or
 /// changes what a program is given. Pipelines without a program stay as they are.
 Pipeline with_planes_of_program(const Pipeline& pipeline);

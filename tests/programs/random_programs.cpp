@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 
 #include "core/simd/simd_target.h"
@@ -202,10 +203,10 @@ TEST_CASE("A program of known inputs has the bits of the program under these inp
     const Program program = RandomProgram(seed).made();
     RandomWords random(seed);
     Numbers inputs;
-    std::map<std::string, uint32_t> known;
+    KnownInputs known;
     for (const ProgramInput& input : program.inputs) {
       inputs[input.name] = input.type == Type::f32 ? bits_of(float(random() % 512) / 64.0f - 4.0f) : random() % 64;
-      if (random() % 2 == 0 && input.rate != Rate::sum) known[input.name] = inputs[input.name];
+      if (random() % 2 == 0 && input.rate != Rate::sum) known[input.name] = {inputs[input.name]};
     }
     const Program less = specialised(program, known);
     CHECK(less.nodes.size() <= program.nodes.size());
@@ -213,6 +214,29 @@ TEST_CASE("A program of known inputs has the bits of the program under these inp
     Numbers wanted = run_once(program, inputs), made = run_once(less, inputs);
     INFO("seed " << seed);
     for (const auto& [name, bits] : wanted) CHECK(same(made[name], bits));
+  }
+}
+
+TEST_CASE("A program for some types of light has no branch for others, and the bits of the program") {
+  const Program program = program_of_light(
+      "float x = s.uv.x, y = x + 9.0;\n"
+      "if (l.type == light_type_ambient) y = x * 2.0;\n"
+      "if (light_type_directional == l.type) y = x * 3.0;\n"
+      "if (l.type == light_type_point) y = x * 4.0;\n"
+      "return vec3(y);");
+  const auto choices = [](const Program& p) {
+    return std::count_if(p.nodes.begin(), p.nodes.end(), [](const ProgramNode& n) { return n.op == Op::select; });
+  };
+  const long counting = 1;  // that of `reaches`, which is light() != 0 here
+  CHECK(choices(program) - counting == 3);
+  for (const auto& [types, left] : std::vector<std::pair<std::vector<uint32_t>, int>>{
+           {{0, 1, 2, 3}, 3}, {{1, 2}, 2}, {{0, 3}, 1}, {{3}, 0}, {{2}, 0}}) {
+    const Program less = specialised(program, {{"light.type", types}});
+    CHECK(choices(less) - counting == left);
+    for (const uint32_t k : types) {
+      Numbers inputs{{"light.type", k}, {"surface.uv.x", bits_of(0.75f)}};
+      CHECK(run_once(less, inputs) == run_once(program, inputs));
+    }
   }
 }
 
