@@ -114,7 +114,8 @@ Pipeline with_planes_that_program_reads(const Pipeline& pipeline) {
 /// The pipeline's own, or its light model's, as other renderers have it too.
 static std::shared_ptr<const programs::Program> program_judged(const Pipeline& pipeline) {
   const LightProgram& given = pipeline.light_program;
-  const LightProgram light = given.used() ? given : program_of(pipeline.light_model, "light_model", Spelling::as_renderers_write);
+  const LightProgram light =
+      given.used() ? given : program_of(pipeline.light_model, "light_model", Spelling::as_renderers_write);
   return programs::kept_program(light.file, light.text);
 }
 
@@ -306,8 +307,27 @@ void ProgramBounds::find_slots_read() {
   for (const NodeId id : program_.output) read(place_[id]);
   for (uint32_t slot = 0; slot < slots_[size_t(Rate::surface)]; ++slot)
     if (is_read[size_t(Rate::surface)][slot] != 0) surface_slots_read_.push_back(slot);
-  for (uint32_t slot = 0; slot < slots_[size_t(Rate::light)]; ++slot)
-    if (is_read[size_t(Rate::light)][slot] != 0) light_slots_read_.push_back(slot);
+  renumber_light_slots(is_read[size_t(Rate::light)]);
+}
+
+/// Puts those that are read before the others, so that a scene of a million lights keeps no more of each.
+void ProgramBounds::renumber_light_slots(const std::vector<uint8_t>& is_read) {
+  std::vector<uint32_t> number(is_read.size());
+  uint32_t next = 0;
+  for (const bool reads : {true, false}) {
+    for (size_t slot = 0; slot < number.size(); ++slot)
+      if ((is_read[slot] != 0) == reads) number[slot] = next++;
+    if (reads) light_slots_read_ = next;
+  }
+  const auto renumber = [&number](Place& p) {
+    if (Rate(p.rate) == Rate::light && p.slot < number.size()) p.slot = number[p.slot];
+  };
+  std::for_each(place_.begin(), place_.end(), renumber);
+  for (Step& step : of_lights_) step.slot = number[step.slot];
+  for (std::vector<Step>* steps : {&constants_, &of_lights_, &of_surfaces_, &of_pairs_, &of_reaches_, &of_sums_})
+    for (Step& step : *steps) std::for_each(step.from.begin(), step.from.end(), renumber);
+  for (ProgramTerm& term : terms_) renumber(term.from);
+  for (ProgramMix& mix : mixes_) renumber(mix.x), renumber(mix.y), renumber(mix.a);
 }
 
 void ProgramBounds::set_constants(const Scene& scene, const Pipeline& pipeline) {
@@ -327,17 +347,19 @@ void ProgramBounds::set_constants(const Scene& scene, const Pipeline& pipeline) 
 void ProgramBounds::set_lights() {
   std::vector<Interval> terms;
   constexpr uint64_t kMost = uint64_t(1) << 24;  // half a GiB
-  if (uint64_t(slots_[size_t(Rate::light)]) * scene_.lights.size() > kMost)
-    throw Error(ErrorKind::limit, program_.name, "has too many operations of lights alone for so many lights",
+  if (uint64_t(light_slots_read_) * scene_.lights.size() > kMost)
+    throw Error(ErrorKind::limit, program_.name, "makes too many values of lights alone for so many lights",
                 "judge it under fewer lights");
+  std::vector<Interval> values(slots_[size_t(Rate::light)] + 1);
+  light_values_.resize(light_slots_read_ * scene_.lights.size() + 1);
   for (uint32_t i = 0; i < scene_.lights.size(); ++i) {
-    std::vector<Interval>& values = light_values_.emplace_back(slots_[size_t(Rate::light)]);
     for (NodeId id = 0; id < program_.nodes.size(); ++id) {
       const ProgramNode& node = program_.nodes[id];
       if (node.op == Op::input && node.rate == Rate::light)
         values[place_[id].slot] = light_field(program_.inputs[node.bits].name).at(scene_.lights[i], i);
     }
     run(of_lights_, values, {constant_values_.data(), values.data()}, terms);
+    std::copy_n(values.begin(), light_slots_read_, &light_values_[size_t(i) * light_slots_read_]);
   }
 }
 
@@ -345,7 +367,7 @@ ProgramBounds::Values ProgramBounds::values_of(const Registers& r) const {
   Values values{};
   for (size_t rate = 0; rate < values.size(); ++rate) values[rate] = r.of[rate].data();
   values[size_t(Rate::constant)] = constant_values_.data();
-  if (!light_values_.empty()) values[size_t(Rate::light)] = light_values_[r.light].data();
+  values[size_t(Rate::light)] = values_of_light(r.light);
   return values;
 }
 
@@ -510,7 +532,7 @@ ProgramLanes ProgramBounds::lanes_of(std::span<const Step> steps, Rate rate, Blo
                                      uint8_t* left) const {
   ProgramLanes lanes{steps, terms_, mixes_, {}, {}, block.of[size_t(rate)].data(), arithmetic_, left};
   lanes.one[size_t(Rate::constant)] = constant_values_.data();
-  if (!light_values_.empty()) lanes.one[size_t(Rate::light)] = light_values_[light].data();
+  lanes.one[size_t(Rate::light)] = values_of_light(light);
   for (const Rate of : {Rate::surface, Rate::pair}) lanes.lanes[size_t(of)] = block.of[size_t(of)].data();
   return lanes;
 }
@@ -529,8 +551,8 @@ ProgramLanes ProgramBounds::lanes_of_lights(std::span<const Step> steps, Block& 
 void ProgramBounds::look_at(std::span<const uint32_t> lights, Block& block) const {
   for (const Rate rate : {Rate::light, Rate::pair}) block.of[size_t(rate)].resize(slots_[size_t(rate)] + 1);
   for (size_t i = 0; i < kIntervalLanes; ++i) {
-    const std::vector<Interval>& values = light_values_[lights[i < lights.size() ? i : 0]];
-    for (const uint32_t slot : light_slots_read_) block.of[size_t(Rate::light)][slot].set(i, values[slot]);
+    const Interval* const values = values_of_light(lights[i < lights.size() ? i : 0]);
+    for (uint32_t slot = 0; slot < light_slots_read_; ++slot) block.of[size_t(Rate::light)][slot].set(i, values[slot]);
   }
 }
 

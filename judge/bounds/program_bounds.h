@@ -112,6 +112,7 @@ class ProgramBounds {
                 bool is_users);
   void make_steps();
   void find_slots_read();
+  void renumber_light_slots(const std::vector<uint8_t>& is_read);
   using SumTerm = std::pair<programs::NodeId, bool>;  ///< true: negated
   std::vector<SumTerm> terms_of(programs::NodeId id) const;
   void gather(programs::NodeId id, bool negated, std::vector<SumTerm>& out, size_t depth, size_t& visits) const;
@@ -120,6 +121,7 @@ class ProgramBounds {
   bool is_unit_component(const programs::ProgramNode& product) const;
   void set_constants(const Scene& scene, const Pipeline& pipeline);
   void set_lights();
+  const Interval* values_of_light(uint32_t light) const { return &light_values_[size_t(light) * light_slots_read_]; }
   Values values_of(const Registers& registers) const;
   Interval evaluated(const Step& step, const Values& values, std::vector<Interval>& terms) const;
   void run(std::span<const Step> steps, std::vector<Interval>& out, const Values& values,
@@ -157,9 +159,10 @@ class ProgramBounds {
   std::vector<std::pair<uint32_t, size_t>> sum_inputs_;            ///< slot, and channel
   std::vector<ProgramTerm> terms_;
   std::vector<ProgramMix> mixes_;
-  std::vector<uint32_t> surface_slots_read_, light_slots_read_;  ///< by what pairs compute, and outputs
+  std::vector<uint32_t> surface_slots_read_;  ///< by what pairs compute, and outputs
+  uint32_t light_slots_read_ = 0;             ///< the same of lights, which are the first of theirs
   std::vector<Interval> constant_values_;
-  std::vector<std::vector<Interval>> light_values_;
+  std::vector<Interval> light_values_;  ///< light_slots_read_ for each light
 };
 
 }  // namespace trueshade::oracle
