@@ -88,16 +88,16 @@ LightProgram light_program_of(const std::string& name) {
 
 ProgramParameter parameter_of(const std::string& text) {
   const size_t equals = text.find('=');
-  const auto wrong = [&] {
-    return Error(ErrorKind::usage, "--light-parameter", "'" + text + "' is no parameter", "NAME=VALUE[,VALUE...]");
-  };
-  if (equals == std::string::npos || equals == 0) throw wrong();
+  const std::string form = "NAME=VALUE[,VALUE...]";
+  if (equals == std::string::npos || equals == 0)
+    throw Error(ErrorKind::usage, "--light-parameter", "'" + text + "' gives no value to a name", form);
   ProgramParameter out{text.substr(0, equals), {}};
   for (size_t at = equals; at != std::string::npos; at = text.find(',', at + 1)) {
     const std::string number = text.substr(at + 1, text.find(',', at + 1) - at - 1);
     float value = 0;
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
-    if (error != std::errc() || end != number.data() + number.size()) throw wrong();
+    if (error != std::errc() || end != number.data() + number.size())
+      throw Error(ErrorKind::usage, "--light-parameter", "'" + number + "' of " + out.name + " is no number", form);
     out.value.push_back(value);
   }
   return out;

@@ -156,7 +156,6 @@ GlContext::GlContext(GlDriver driver, std::span<const GlPlatform> platforms) : h
            gl_integer(GL_MINOR_VERSION),
            gl_integer(GL_SUBPIXEL_BITS),
            gl_integer(GL_MAX_TEXTURE_SIZE),
-           gl_integer(GL_MAX_TEXTURE_BUFFER_SIZE),
            opened};
   const char* wanted = gallium_name(driver);
   if (wanted != nullptr && info_.renderer.find(wanted) == std::string::npos)

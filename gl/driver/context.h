@@ -19,7 +19,6 @@ struct GlInfo {
   int major = 0, minor = 0;
   int subpixel_bits = 0;     ///< GL_SUBPIXEL_BITS: a lower bound of the grid, not the grid (docs/gl_rules.md section 1)
   int max_texture_size = 0;  ///< pixels a side
-  int max_texels = 0;        ///< of a texture buffer
   GlPlatform platform = GlPlatform::surfaceless;
 
   std::string line() const { return vendor + ", " + renderer + ", OpenGL " + version; }

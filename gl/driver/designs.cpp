@@ -205,7 +205,7 @@ void GlPeer::Work::use_lighting() {
     set_uniform(lighting, "columns", (pipeline.width + tile - 1) / tile);
     set_uniform(lighting, "image_size", std::array<float, 2>{float(pipeline.width), float(pipeline.height)});
   } else {
-    bind_texture(lighting, "lights", unit, GL_TEXTURE_BUFFER, renderer.buffers().light_texels());
+    bind_texture(lighting, "lights", unit, GL_TEXTURE_BUFFER, renderer.buffers().light_texels(pipeline));
     set_uniform(lighting, "light_count", int(scene().lights.size()));
   }
   use_light_program(lighting);
@@ -230,7 +230,7 @@ void GlPeer::Work::draw_volumes() {
   if (pipeline.light_volumes.base) {
     glUseProgram(base);
     bind_surface(base, planes, textures, depth, scene(), pipeline, 0, 0);
-    bind_texture(base, "lights", kLightUnit, GL_TEXTURE_BUFFER, renderer.buffers().light_texels());
+    bind_texture(base, "lights", kLightUnit, GL_TEXTURE_BUFFER, renderer.buffers().light_texels(pipeline));
     use_light_program(base);
     glBindVertexArray(none);
     glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -282,7 +282,7 @@ void GlPeer::Work::draw_over() {
   set_geometry_state(pipeline.geometry, viewport, 0, 0);
   glUseProgram(over);
   const int unit = bind_surface(over, planes, textures, depth, scene(), pipeline, 0, 0);
-  bind_texture(over, "lights", unit, GL_TEXTURE_BUFFER, renderer.buffers().light_texels());
+  bind_texture(over, "lights", unit, GL_TEXTURE_BUFFER, renderer.buffers().light_texels(pipeline));
   set_uniform(over, "light_count", int(scene().lights.size()));
   use_light_program(over);
   glDepthMask(GL_FALSE);
@@ -293,7 +293,7 @@ void GlPeer::Work::draw_over() {
 
 GlFrame GlPeer::Work::draw(bool read_back) {
   renderer.context().make_current();
-  renderer.buffers().light_texels();  // made before any is bound: making one binds it to whichever unit is active
+  renderer.buffers().light_texels(pipeline);  // made before any is bound: making one binds it to whichever unit is active
   if (pipeline.light_program.used()) renderer.buffers().material_texels(pipeline);
   GlFrame frame;
   frame.capture.driver = renderer.context().info().line();

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "core/error.h"
+
 namespace trueshade::oracle {
 
 void delete_buffer(GLuint name) { glDeleteBuffers(1, &name); }
@@ -76,9 +78,16 @@ GlTexture make_texture(Format format, int width, int height) {
 
 namespace {
 
-GlTexelBuffer texel_buffer(GLenum internal, const void* bytes, size_t size, size_t least) {
+GlTexelBuffer texel_buffer(GLenum internal, const void* bytes, size_t size, size_t texel) {
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+  if (size / texel > size_t(most))
+    throw Error(
+        ErrorKind::limit, "OpenGL",
+        "the driver reads buffers of " + std::to_string(most) + " texels, and one has " + std::to_string(size / texel),
+        "fewer lights, or another driver");
   GlTexelBuffer out;
-  out.buffer = make_buffer(GL_TEXTURE_BUFFER, size == 0 ? nullptr : bytes, size == 0 ? least : size);
+  out.buffer = make_buffer(GL_TEXTURE_BUFFER, size == 0 ? nullptr : bytes, size == 0 ? texel : size);
   GLuint name = 0;
   glGenTextures(1, &name);
   out.texture = GlTexture(name);

@@ -168,7 +168,7 @@ class LightPass {
   void use(GLuint program) const {
     const bool materials = reads_materials(pipeline_.light_model) || pipeline_.light_program.used();
     // Made before any is bound: making one binds it to whichever unit is active.
-    const GLuint light_texels = buffers_.light_texels();
+    const GLuint light_texels = buffers_.light_texels(pipeline_);
     const GLuint material_texels = materials ? buffers_.material_texels(pipeline_) : 0;
     glUseProgram(program);
     const int unit =

@@ -162,8 +162,12 @@ bool SceneBuffers::has_large_meshes() const {
   return indices >= kLargeMesh * scene_->instances.size();
 }
 
-GLuint SceneBuffers::light_texels() {
-  if (lights_.texture == 0) lights_ = make_texel_buffer(light_records(*scene_));
+GLuint SceneBuffers::light_texels(const Pipeline& pipeline) {
+  if (lights_of_ && lights_of_->light_model == pipeline.light_model &&
+      lights_of_->light_program == pipeline.light_program)
+    return lights_.texture;
+  lights_ = make_texel_buffer(light_records(*scene_, oracle::light_texels(pipeline)));
+  lights_of_ = pipeline;
   return lights_.texture;
 }
 

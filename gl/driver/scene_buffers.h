@@ -37,7 +37,7 @@ class SceneBuffers {
   void draw_each_instance(GLuint program, Surfaces which = Surfaces::all) const;
   const MapTextures& maps() const { return maps_; }
   bool has_large_meshes() const;  ///< so large that a draw an instance costs less than matrices read by every vertex
-  GLuint light_texels();  ///< light_records()
+  GLuint light_texels(const Pipeline& pipeline);  ///< light_records()
   /// Material records as material_text() reads them.
   GLuint material_texels(const Pipeline& pipeline);
 
@@ -63,7 +63,7 @@ class SceneBuffers {
   bool has_own_faces_ = false;           ///< some run is not drawn with the pipeline's culling and front face
   GeometryState faces_;                  ///< of the pipeline that the records were made for
   GlTexelBuffer lights_, materials_;
-  std::optional<Pipeline> materials_of_;  ///< whose records materials_ holds
+  std::optional<Pipeline> lights_of_, materials_of_;  ///< whose records lights_ and materials_ hold
 };
 
 }  // namespace trueshade::oracle

@@ -28,7 +28,7 @@ std::string tile_vertex_text(int version) {
 uniform int tile_size;
 uniform int columns;
 uniform vec2 image_size;
-flat out ivec2 tile_lights;  // first and end, in lights of `records`
+flat out ivec2 tile_lights;  // first and end, in lights of the buffer
 
 void main() {
   int first = int(texelFetch(tiles, 2 * gl_InstanceID).x);

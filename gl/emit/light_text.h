@@ -51,10 +51,13 @@ std::string light_fragment_text(const Pipeline& pipeline, const GlslOptions& opt
 /// What stands before the user's text in such a shader, or the whole of another.
 std::string_view own_text(std::string_view shader);
 
-/// RGBA32F texels of a light in the buffer `lights`, those that nearly all programs read first: position, type; colour,
-/// range; direction, cos_outer; attenuation, spot exponent; ambient, index; cone, penumbra, cos_inner, penumbra_slope;
-/// cone_scale, cone_offset, cutoff_slope, 0.
-inline constexpr int kLightTexels = 7;
+/// RGBA32F texels that a light may have in the buffer `lights`: position, type; colour, range; direction, cos_outer;
+/// attenuation, spot exponent; ambient, index; cone, penumbra, cos_inner, penumbra_slope; cone_scale, cone_offset,
+/// cutoff_slope, 0.
+inline constexpr size_t kLightTexels = 7;
+
+/// Which of them it has, one behind the other: the first two, and those of which the light program reads something.
+std::vector<size_t> light_texels(const Pipeline& pipeline);
 
 /// Where Vulkan binds the block of parameters, in set 0.
 inline constexpr int kParameterBinding = 7;

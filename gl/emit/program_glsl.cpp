@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view kUserText =
     "\nlayout(std140) uniform;  // so that a block which says nothing has these offsets\n#line 1 1\n";
 
-constexpr const char* kBuffer = R"(uniform samplerBuffer lights;     // seven texels a light
+constexpr const char* kBuffer = R"(uniform samplerBuffer lights;  // a record a light
 uniform int light_count;
 layout(location = 0) out vec4 target;
 
@@ -33,6 +33,31 @@ constexpr ViewMember kViewMembers[] = {
     {"size", "vec4 picture_place", "picture_place.zw", "vec2(0.0)"},
     {"time", "vec3 moment", "moment.x", "0.0"},
     {"frame", "vec3 moment", "uint(moment.y) * 65536u + uint(moment.z)", "0u"},
+};
+
+/// A member of Light: of texel i, "ti", or what it is where the record has not that texel.
+struct LightMember {
+  std::string_view name, value, unread;
+  size_t texel() const { return size_t(value[value.find_first_of("0123456")] - '0'); }
+};
+constexpr LightMember kLightMembers[] = {
+    {"position", "t0.xyz", "vec3(0.0)"},
+    {"type", "ts_type_of(t0.w)", "light_type_point"},
+    {"color", "t1.xyz", "vec3(0.0)"},
+    {"range", "t1.w", "0.0"},
+    {"direction", "t2.xyz", "vec3(0.0)"},
+    {"cos_outer", "t2.w", "0.0"},
+    {"attenuation", "t3.xyz", "vec3(0.0)"},
+    {"spot_exponent", "t3.w", "0.0"},
+    {"ambient", "t4.xyz", "vec3(0.0)"},
+    {"index", "uint(t4.w)", "0u"},
+    {"cone", "t5.x", "0.0"},
+    {"penumbra", "t5.y", "0.0"},
+    {"cos_inner", "t5.z", "0.0"},
+    {"penumbra_slope", "t5.w", "0.0"},
+    {"cone_scale", "t6.x", "0.0"},
+    {"cone_offset", "t6.y", "0.0"},
+    {"cutoff_slope", "t6.z", "0.0"},
 };
 
 /// The light program of a pass.
@@ -58,8 +83,15 @@ PassProgram pass_program(const Pipeline& p, const GlslOptions& options) {
   const auto has = [&out](std::string_view words) { return out.text.find(words) != std::string::npos; };
   out.outline.defines_start = has("\nvec3 start(");
   out.outline.defines_finish = has("\nvec4 finish(");
-  for (const char* member : {"eye", "axis"})
-    if (has("v." + std::string(member))) out.outline.inputs.push_back("view." + std::string(member));
+  const auto reads = [&out](const std::string& member) {
+    for (size_t at = 0; (at = out.text.find(member, at)) != std::string::npos;)
+      if (const char next = out.text[at += member.size()]; next != '_' && (next < 'a' || next > 'z')) return true;
+    return false;
+  };
+  for (const ViewMember& m : kViewMembers)
+    if (reads("v." + std::string(m.name))) out.outline.inputs.push_back("view." + std::string(m.name));
+  for (const LightMember& m : kLightMembers)
+    if (reads("l." + std::string(m.name))) out.outline.inputs.push_back("light." + std::string(m.name));
   out.reads.gloss = reads_specular_plane(model);
   out.reads.emission = model.emission;
   return out;
@@ -88,36 +120,31 @@ std::string view_text(const PassProgram& program) {
   return "\nmat4 ts_matrix_of(vec4 rows[4]) { return transpose(mat4(rows[0], rows[1], rows[2], rows[3])); }\n" + text;
 }
 
-constexpr const char* kLightOf = R"(
-Light ts_light_of(int i) {
-  vec4 t0 = texelFetch(lights, 7 * i), t1 = texelFetch(lights, 7 * i + 1), t2 = texelFetch(lights, 7 * i + 2);
-  vec4 t3 = texelFetch(lights, 7 * i + 3), t4 = texelFetch(lights, 7 * i + 4), t5 = texelFetch(lights, 7 * i + 5);
-  vec4 t6 = texelFetch(lights, 7 * i + 6);
-  Light l;
-  l.type = ts_type_of(t0.w);
-  l.index = uint(t4.w);
-  l.position = t0.xyz;
-  l.range = t1.w;
-  l.direction = t2.xyz;
-  l.color = t1.xyz;
-  l.attenuation = t3.xyz;
-  l.ambient = t4.xyz;
-  l.cone = t5.x;
-  l.penumbra = t5.y;
-  l.cos_inner = t5.z;
-  l.cos_outer = t2.w;
-  l.cone_scale = t6.x;
-  l.cone_offset = t6.y;
-  l.spot_exponent = t3.w;
-  l.penumbra_slope = t5.w;
-  l.cutoff_slope = t6.z;
-  l.right = l.up = vec3(0.0);
-  l.shadow = l.cookie = -1;
-  for (int k = 0; k < 4; ++k) l.user[k] = vec4(0.0);
-  return l;
+std::vector<size_t> texels_of(const PassProgram& program) {
+  std::vector<size_t> out{0, 1};  // the extent and unlit surfaces ask for them too
+  for (size_t i = 2; i < kLightTexels; ++i)
+    if (std::any_of(std::begin(kLightMembers), std::end(kLightMembers), [&](const LightMember& m) {
+          return m.texel() == i && program.reads_input("light." + std::string(m.name));
+        }))
+      out.push_back(i);
+  return out;
 }
-)";
-static_assert(kLightTexels == 7);
+
+/// `Light ts_light_of(int i)`.
+std::string light_of_text(const PassProgram& program) {
+  const std::vector<size_t> texels = texels_of(program);
+  std::string text = "\nLight ts_light_of(int i) {\n";
+  for (size_t k = 0; k < texels.size(); ++k)
+    text += "  vec4 t" + std::to_string(texels[k]) + " = texelFetch(lights, " + std::to_string(texels.size()) +
+            " * i + " + std::to_string(k) + ");\n";
+  text += "  Light l;\n";
+  for (const LightMember& m : kLightMembers) {
+    const bool there = std::find(texels.begin(), texels.end(), m.texel()) != texels.end();
+    text += "  l." + std::string(m.name) + " = " + std::string(there ? m.value : m.unread) + ";\n";
+  }
+  return text + "  l.right = l.up = vec3(0.0);\n  l.shadow = l.cookie = -1;\n" +
+         "  for (int k = 0; k < 4; ++k) l.user[k] = vec4(0.0);\n  return l;\n}\n";
+}
 
 /// The type of a light whose record says `type`. Types that no light of the scene has are left out, so that compilers
 /// leave out what a program does with them.
@@ -263,7 +290,7 @@ std::string light_fragment_text(const Pipeline& p, const GlslOptions& options, c
   text += forward ? varyings_text(p, options, "in") : surface_uniforms_text(p, options);
   if (unlit || (forward && reads_materials(p.light_model))) text += "uniform samplerBuffer materials;\n";
   text += draw.declared + view_uniforms_text(program) + kBuffer + std::string(programs::light_interface()) +
-          type_text(options) + kLightOf + view_text(program) + declared_text(has) + "\nvoid main() {\n";
+          type_text(options) + light_of_text(program) + view_text(program) + declared_text(has) + "\nvoid main() {\n";
   text += forward ? "  vec3 P = world_position;\n  vec3 stored_normal = " + normal_text(p, options) + ";\n" +
                         material_text(p.light_model, options)
                   : read_surface_text(p, options);
@@ -272,6 +299,8 @@ std::string light_fragment_text(const Pipeline& p, const GlslOptions& options, c
   const std::string& file = program.text;
   return text + std::string(kUserText) + file + (file.ends_with('\n') ? "" : "\n") + tail_text(has);
 }
+
+std::vector<size_t> light_texels(const Pipeline& pipeline) { return texels_of(pass_program(pipeline, {})); }
 
 std::string_view own_text(std::string_view shader) { return shader.substr(0, shader.find(kUserText)); }
 

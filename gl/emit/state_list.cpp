@@ -80,7 +80,7 @@ constexpr Meaning kMeanings[] = {
     {"eye", "the camera's position in the world"},
     {"view_axis", "the view's z axis in the world, towards the viewer, of unit length"},
     {"clip_from_world", "rows of projection * view in double, rounded to float once"},
-    {"view_projection", "the same"},
+    {"view_projection", "rows of projection * view, as in clip_from_world"},
     {"view_from_world", "rows of the view's matrix, 0 where the camera is one matrix"},
     {"clip_from_view", "rows of the projection's matrix, 0 where the camera is one matrix"},
     {"moment", "seconds; the number of the frame, divided by 65536, and the rest"},
@@ -128,11 +128,17 @@ std::string uniforms(const ShaderTexts& shaders) {
   return strings_of(lines);
 }
 
-std::string light_layout() {
-  return strings_of({"x, y, z: position; w: type, as in the shader", "r, g, b: linear colour times intensity; a: range",
-                     "x, y, z: the way the light travels; w: cos_outer", "k0, k1, k2: attenuation; w: spot_exponent",
-                     "r, g, b: its ambient share; w: index", "cone, penumbra, radians; cos_inner; penumbra_slope",
-                     "cone_scale, cone_offset, cutoff_slope, 0"});
+std::string light_layout(const Pipeline& pipeline) {
+  constexpr const char* kTexels[kLightTexels] = {"x, y, z: position; w: type, as in the shader",
+                                                 "r, g, b: linear colour times intensity; a: range",
+                                                 "x, y, z: the way the light travels; w: cos_outer",
+                                                 "k0, k1, k2: attenuation; w: spot_exponent",
+                                                 "r, g, b: its ambient share; w: index",
+                                                 "cone, penumbra, radians; cos_inner; penumbra_slope",
+                                                 "cone_scale, cone_offset, cutoff_slope, 0"};
+  std::vector<std::string> texels;
+  for (const size_t i : light_texels(pipeline)) texels.emplace_back(kTexels[i]);
+  return strings_of(texels);
 }
 
 /// Scalars of the light program's block of parameters.
@@ -292,7 +298,7 @@ std::string state_list(const Pipeline& asked, const GlslOptions& options, Shader
          (options.transparent ? entry("transparent_draws", array_of(glass)) : "") +
          entry("post_passes", post_list(asked, options.version, api)) + entry("uniforms", uniforms(shaders)) +
          (pipeline.light_program.used() ? entry("parameters", parameters(pipeline)) : "") +
-         "  \"light_layout\": " + light_layout();
+         "  \"light_layout\": " + light_layout(pipeline);
 }
 
 }  // namespace trueshade::oracle

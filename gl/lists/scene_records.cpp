@@ -151,22 +151,23 @@ std::vector<float> more_uv_texels(const Mesh& mesh) {
   return out;
 }
 
-std::vector<float> light_records(const Scene& scene) {
+std::vector<float> light_records(const Scene& scene, std::span<const size_t> texels) {
   std::vector<float> out;
-  out.reserve(4 * size_t(kLightTexels) * scene.lights.size());
+  out.reserve(4 * texels.size() * scene.lights.size());
   for (size_t i = 0; i < scene.lights.size(); ++i) {
-    const auto add = [&](const glm::vec3& v, float w) { out.insert(out.end(), {v.x, v.y, v.z, w}); };
     const Light& light = scene.lights[i];
     const LightCone cone(light);
-    add(light.position, float(light.type));
-    add(light.color, light.range);
-    add(light.direction, cone.cos_outer);
-    add(light.attenuation, light.spot_exponent);
-    add(light.ambient, float(i));
-    add({light.cone_rad, light.penumbra_rad, cone.cos_inner}, cone.penumbra_slope);
-    add({cone.scale, cone.offset, cone.cutoff_slope}, 0.0f);
+    const glm::vec4 all[kLightTexels] = {{light.position, float(light.type)},
+                                         {light.color, light.range},
+                                         {light.direction, cone.cos_outer},
+                                         {light.attenuation, light.spot_exponent},
+                                         {light.ambient, float(i)},
+                                         {light.cone_rad, light.penumbra_rad, cone.cos_inner, cone.penumbra_slope},
+                                         {cone.scale, cone.offset, cone.cutoff_slope, 0.0f}};
+    for (const size_t texel : texels)
+      for (int k = 0; k < 4; ++k) out.push_back(all[texel][k]);
   }
-  if (out.empty()) out.resize(4 * size_t(kLightTexels));
+  if (out.empty()) out.resize(4 * texels.size());
   return out;
 }
 

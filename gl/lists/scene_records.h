@@ -2,6 +2,7 @@
 // What shaders of gl/emit read of a scene, as numbers in the order in which a GPU is handed them.
 #include <array>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -46,8 +47,8 @@ std::vector<float> tangent_texels(const Mesh& mesh, bool all_sets);
 /// u and v of the sets behind the first, kMaxUvSets - 1 texels a vertex.
 std::vector<float> more_uv_texels(const Mesh& mesh);
 
-/// The light records as the shaders read them, kLightTexels RGBA texels a light; of no light, zeros for one.
-std::vector<float> light_records(const Scene& scene);
+/// The light records as the shaders read them, RGBA a texel, light_texels() a light; of no light, zeros for one.
+std::vector<float> light_records(const Scene& scene, std::span<const size_t> texels);
 
 /// Material records as material_text() reads them.
 std::vector<float> material_records(const Scene& scene, const Pipeline& pipeline);

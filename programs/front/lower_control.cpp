@@ -14,7 +14,8 @@ void Lowering::work(size_t steps) {
   steps_ += steps;
   const size_t most = limits_.nodes * kStepsForEachNode;
   if (steps_ > most)
-    throw Refusal{"takes more than " + std::to_string(most) + " steps to unroll",
+    throw Refusal{"takes more steps to unroll than " + std::to_string(kStepsForEachNode) + " for each of " +
+                      std::to_string(limits_.nodes) + " operations on scalars",
                   "write shorter loops, or raise --max-program-nodes", ErrorKind::limit};
   if (steps_ < next_look_) return;
   next_look_ = steps_ + kStepsBetweenLooks;
@@ -219,15 +220,19 @@ void Lowering::leave(const Scalars* value) {
   Frame& f = frame();
   for (Construct& open : f.constructs) open.mask = b_.both(open.mask, b_.negation(f.mask));
   f.present = b_.both(f.present, b_.negation(f.mask));
-  if (value != nullptr) f.returns.push_back({f.mask, *value, line_, b_.origin()});
+  if (value == nullptr) return;
+  work(value->size());
+  f.returns.push_back({f.mask, *value, line_, b_.origin()});
 }
 
-/// What the function returns. Where some lanes return 0, as light() does of surfaces that turn away, nothing else has to
-/// be chosen for these: it is 0 unless another return has the lane.
+/// What the function returns: the first value, and over it the others, each where its own lanes are. Where some lanes
+/// return 0, as light() does of surfaces that turn away, 0 takes the place of the first value, so that no choice is made
+/// for these lanes.
 Scalars Lowering::returned() {
   const std::vector<Return>& all = frame().returns;
   Scalars out = all.front().value;
   for (size_t i = 0; i < out.size(); ++i) {
+    work(all.size());
     const auto is_zero = [&](const Return& r) { return b_.is_constant(r.value[i]) && b_.node(r.value[i]).bits == 0; };
     const auto zero = std::find_if(all.begin(), all.end(), is_zero);
     if (zero != all.end()) out[i] = zero->value[i];

@@ -70,14 +70,14 @@ Terms terms_of(const LightModel& m, Spelling spelling) {
   const float power = power_of(m, squared);
   add(usual, "as_renderers_write");
   add(driven, "for_drivers");
-  add(!driven, "counts");
+  add(!driven, "defines_reaches");
   add(shines && squared, "squared");
   add(shines && !usual && !squared && (!own || driven), "not_squared");
   add(shines && own && !usual && !driven, "by_own_power");
   add(shines && m.specular_masked && (lights_behind || driven), "masked_behind");
   add(!lights_behind && !driven, "dark_behind");
-  add(shines && !own && spelling == Spelling::in_products && power >= 1 && power <= 64 && power == std::floor(power),
-      "products");
+  const bool whole = power >= 1 && power <= (spelling == Spelling::in_products ? 64 : 1) && power == std::floor(power);
+  add(shines && !own && driven && whole, "products");
   add((shines && !terms.contains("products")) || m.cone == Cone::exponent, "powers");
   add(m.emission, "emission");
   add(m.global_ambient != glm::vec3(0.0f), "global_ambient_given");

@@ -65,7 +65,7 @@ TEST_CASE("A tile lists every light that lights one of its pixels, and few that 
   Pipeline pipeline = presets().front().pipeline;
   pipeline.width = kWidth, pipeline.height = kHeight;
   pipeline.gbuffer.normal.format = Format::rgba16f;
-  constexpr auto floats = size_t(4 * kLightTexels);
+  const size_t floats = 4 * light_texels(pipeline).size();
   for (const char* name : {"city,lights=80", "sphere", "rabbits,lights=60", "atrium"}) {
     const Scene scene = builtin_scene(name);
     const Shown s = shown(scene, pipeline);

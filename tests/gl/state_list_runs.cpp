@@ -139,7 +139,7 @@ class ListedRenderer {
     const GLuint p = program(draw["shaders"]);
     glUseProgram(p);
     const int unit = bind_surface(p, planes_, textures_, depth_, scene_, pipeline_, 0, 0);
-    bind_texture(p, "lights", unit, GL_TEXTURE_BUFFER, buffers_.light_texels());
+    bind_texture(p, "lights", unit, GL_TEXTURE_BUFFER, buffers_.light_texels(pipeline_));
     set_uniform(p, "light_count", int(scene_.lights.size()));
     if (reads_materials(pipeline_.light_model))
       bind_texture(p, "materials", unit + 1, GL_TEXTURE_BUFFER, buffers_.material_texels(pipeline_));

@@ -1,5 +1,6 @@
 // What one light adds under a pipeline's `light_model`: docs/arithmetic.md, section 8. All presets are made of these
-// terms. A line `#ifdef term` keeps what follows it where the pipeline chooses that term, as in `"falloff": "linear"`.
+// terms. A line `#ifdef term` keeps what follows it where the pipeline chooses that term, as in `"falloff": "linear"`, or
+// where terms_of() of scenes/light_models/stated_model.cpp finds it: most of these say how the formula is spelled.
 // The model's numbers stand before this text, as constants.
 
 struct Arrival {   // of one light at one surface
@@ -90,6 +91,9 @@ Arrival arrival(Surface s, Light l) {
     float t = clamp((c - l.cos_outer) * l.penumbra_slope, 0.0, 1.0);
 #endif
 #ifdef cone_smooth
+#ifdef for_drivers
+    t = c > l.cos_outer ? t : 0.0;  // GLSL leaves open what clamp() makes of 0 times an infinite slope
+#endif
     float g = (t * t) * (3.0 - 2.0 * t);
 #endif
 #ifdef cone_exponent
@@ -246,7 +250,7 @@ vec3 light(Surface s, Light l, View v) {
 #endif
 }
 
-#ifdef counts
+#ifdef defines_reaches
 bool reaches(Surface s, Light l, View v) {
   if (l.type == light_type_ambient) return false;
   Arrival at = arrival(s, l);
