@@ -32,10 +32,10 @@ make_bare_debian() {
   rm -f "$log"
 }
 
-# inside COMMANDS: runs them in the Debian at $root, with /proc and /dev, which end with them.
+# inside COMMANDS: runs them in the Debian at $root, with /proc, /sys and /dev, which end with them.
 inside() {
   DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 unshare --mount bash -c '
-    mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" && exec chroot "$0" /bin/bash -euc "$1"' "$root" "$1"
+    mount -t proc proc "$0/proc" && mount -t sysfs -o ro sysfs "$0/sys" && mount --rbind /dev "$0/dev" && exec chroot "$0" /bin/bash -euc "$1"' "$root" "$1"
 }
 
 # open_bare_debian SUITE: sets $root to a bare Debian, of the folder TRUESHADE_DEBIAN, which stays, or to one that goes with

@@ -14,16 +14,18 @@ case $("$objdump" -f "$1" | grep -m 1 architecture) in
   *) echo "SKIPPED: no list of instructions for this architecture"; exit 4 ;;
 esac
 # Reads of 32 and 64 bits from where the last write above was of a mask of fewer. A slot that the function also fills with
-# 64 bits at once is shared with a pointer or a count: reads of 64 bits there are that one's, which a jump leads to.
+# 64 or 32 bits at once is shared with a pointer or a count: reads of as many bits there are that one's, which a jump leads
+# to.
 widened_masks() {
   awk '
     function slot_of(line) { return match(line, /-?(0x[0-9a-f]+)?\(%r[sb]p\)/) ? substr(line, RSTART, RLENGTH) : "" }
     function judge(  i, at, word) {
-      delete whole; delete spilled
+      delete whole; delete half; delete spilled
       for (i = 1; i <= count; ++i) {
         split(line[i], word, " ")
         at = slot_of(line[i])
         if (at != "" && line[i] ~ /\(%r[sb]p\)$/ && (word[2] == "movq" || (word[2] == "mov" && line[i] ~ whole_register))) whole[at] = 1
+        else if (at != "" && line[i] ~ /\(%r[sb]p\)$/ && (word[2] == "movl" || (word[2] == "mov" && line[i] ~ half_register))) half[at] = 1
       }
       for (i = 1; i <= count; ++i) {
         at = slot_of(line[i])
@@ -33,6 +35,7 @@ widened_masks() {
         else if (line[i] ~ /\(%r[sb]p\)$/ && word[2] ~ /^(v?mov|vextract|kmov)/) delete spilled[at]
         else if (!(at in spilled)) continue
         else if ((at in whole) && (word[2] ~ /q$/ || line[i] ~ whole_register)) continue
+        else if ((at in half) && (word[2] ~ /l$/ || line[i] ~ half_register)) continue
         else if (word[2] ~ /^kmov/ ? word[2] != spilled[at] && word[2] != "kmovb" : word[2] !~ /^(v|movz|movs|lea)/ && (word[2] ~ /[lq]$/ || line[i] ~ wide)) print name, line[i]
       }
       count = 0
@@ -40,7 +43,7 @@ widened_masks() {
     /^[0-9a-f]+ <.*>:$/ { judge(); name = $2; next }
     { line[++count] = $0 }
     END { judge() }' wide='%(e[a-d]x|e[sd]i|e[sb]p|r[a-d]x|r[sd]i|r[0-9]+d?[,) ]|r[0-9]+d?$)' \
-    whole_register='%r([a-d]x|[sd]i|[0-9]+)(,|$)'
+    whole_register='%r([a-d]x|[sd]i|[0-9]+)(,|$)' half_register='%(e[a-d]x|e[sd]i|r[0-9]+d)(,|$)'
 }
 bad='0 <f>:
  1:	kmovb  %k1,0x8(%rsp)
@@ -57,7 +60,10 @@ fine='0 <f>:
  5:	mov    0x8(%rsp),%eax
  6:	mov    %r12,0x10(%rsp)
  7:	kmovw  %k1,0x10(%rsp)
- 8:	mov    0x10(%rsp),%r12'
+ 8:	mov    0x10(%rsp),%r12
+ 9:	mov    %ebx,0x18(%rsp)
+ 10:	kmovb  %k1,0x18(%rsp)
+ 11:	mov    0x18(%rsp),%r9d'
 if [[ $(widened_masks <<<"$bad" | wc -l) != 5 || -n $(widened_masks <<<"$fine") ]]; then
   echo "widened masks are not told from others"
   exit 1

@@ -18,10 +18,14 @@ HWY_BEFORE_NAMESPACE();
 namespace trueshade::programs::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// x86's instructions behind Min and Max of more than a lane choose as the comparisons do, NaN and -0 included.
-constexpr bool kMinTakesSecondOperand = HWY_ARCH_X86 && hn::MaxLanes(DF()) > 1;
-// Highway's rounding of one lane loses the sign of zero; the compiler's own is right there.
-constexpr bool kRoundsByVectors = hn::MaxLanes(DF()) > 1;
+// Targets without vector instructions; the second has several lanes.
+constexpr bool kIsScalar = HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128;
+// x86's instructions behind Min and Max choose as the comparisons do, NaN and -0 included.
+constexpr bool kMinTakesSecondOperand = HWY_ARCH_X86 && !kIsScalar;
+
+/// A rounded value. Where Highway rounds without instructions it loses the sign of zero, which is that of what is
+/// rounded.
+HWY_INLINE VF with_sign_of(VF a, VF rounded) { return kIsScalar ? hn::CopySign(rounded, a) : rounded; }
 
 struct Copy {
   HWY_INLINE VF operator()(VF a) const { return a; }
@@ -84,28 +88,16 @@ struct Size {
   HWY_INLINE VF operator()(VF a) const { return hn::Abs(a); }
 };
 struct RoundDown {
-  HWY_INLINE VF operator()(VF a) const {
-    if constexpr (kRoundsByVectors) return hn::Floor(a);
-    return hn::Set(DF(), __builtin_floorf(hn::GetLane(a)));
-  }
+  HWY_INLINE VF operator()(VF a) const { return with_sign_of(a, hn::Floor(a)); }
 };
 struct RoundUp {
-  HWY_INLINE VF operator()(VF a) const {
-    if constexpr (kRoundsByVectors) return hn::Ceil(a);
-    return hn::Set(DF(), __builtin_ceilf(hn::GetLane(a)));
-  }
+  HWY_INLINE VF operator()(VF a) const { return with_sign_of(a, hn::Ceil(a)); }
 };
 struct RoundToZero {
-  HWY_INLINE VF operator()(VF a) const {
-    if constexpr (kRoundsByVectors) return hn::Trunc(a);
-    return hn::Set(DF(), __builtin_truncf(hn::GetLane(a)));
-  }
+  HWY_INLINE VF operator()(VF a) const { return with_sign_of(a, hn::Trunc(a)); }
 };
 struct RoundToEven {
-  HWY_INLINE VF operator()(VF a) const {
-    if constexpr (kRoundsByVectors) return hn::Round(a);
-    return hn::Set(DF(), __builtin_nearbyintf(hn::GetLane(a)));
-  }
+  HWY_INLINE VF operator()(VF a) const { return with_sign_of(a, hn::Round(a)); }
 };
 struct Choice {
   HWY_INLINE VF operator()(VF c, VF a, VF b) const { return hn::IfThenElse(hn::MaskFromVec(c), a, b); }

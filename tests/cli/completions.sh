@@ -70,7 +70,8 @@ fi
 "$trueshade" completion fish >trueshade.fish
 if command -v fish >/dev/null; then
   export HOME=$work
-  fish_words() { fish --no-config -c "source trueshade.fish; complete -C '$1'" | cut -f1 | xargs; }
+  # fish 4 also offers what has the typed letters further in.
+  fish_words() { fish --no-config -c "source trueshade.fish; complete -C '$1'" | cut -f1 | awk -v typed="${1##* }" 'index($0, typed) == 1' | xargs; }
   expect fish 'render' "render" "$(fish_words 'trueshade ren')"
   expect fish 'a preset' "many-lights" "$(fish_words 'trueshade render builtin:city --preset m')"
   expect fish 'a list' "depth,position" "$(fish_words 'trueshade render --aov depth,po')"
@@ -92,7 +93,7 @@ for command in $commands; do
   expect man "$command" "$options" "$described"
 done
 for page in man1/*.1; do
-  if command -v mandoc >/dev/null; then mandoc -T lint -W warning "$page" || status=1; fi
+  if command -v mandoc >/dev/null; then ! mandoc -T lint -W warning "$page" | grep -v 'missing date' || status=1; fi
   if command -v groff >/dev/null || man --version >/dev/null 2>&1; then
     said=$(MANWIDTH=160 man --warnings -l "$page" 2>&1 >/dev/null || true)
     [[ -z $said ]] || { echo "$page: $said"; status=1; }

@@ -91,7 +91,9 @@ TEST_CASE("Parameters are a uniform block of any name") {
 TEST_CASE("Errors name the file, the user's line and what is wrong") {
   using Catch::Contains;
   using Catch::StartsWith;
-  CHECK_THAT(error_of_light("float a = frob(1.0);"), StartsWith("a.glsl:2:11: 'frob'"));
+  const std::string unknown =
+      error_of_light("float a = frob(1.0);");  // glslang 12 names the name's column, 15 the call's
+  CHECK_THAT(unknown, StartsWith("a.glsl:2:11: 'frob'") || StartsWith("a.glsl:2:19: 'frob'"));
   CHECK_THAT(error_of("#version 460\n\nvec3 light(Surface s, Light l, View v) { return s.colour; }"),
              StartsWith("a.glsl:3:"));
   CHECK_THAT(error_of("float x;"), StartsWith("a.glsl: defines no"));
