@@ -18,14 +18,15 @@ HWY_BEFORE_NAMESPACE();
 namespace trueshade::programs::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Targets without vector instructions; the second has several lanes.
 constexpr bool kIsScalar = HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128;
 // x86's instructions behind Min and Max choose as the comparisons do, NaN and -0 included.
 constexpr bool kMinTakesSecondOperand = HWY_ARCH_X86 && !kIsScalar;
+// Better targets have smaller numbers.
+constexpr bool kRoundsByInstruction = HWY_ARCH_X86 ? HWY_TARGET <= HWY_SSE4 : !kIsScalar;
 
-/// A rounded value. Where Highway rounds without instructions it loses the sign of zero, which is that of what is
+/// A rounded value. Where Highway rounds by other operations it loses the sign of zero, which is that of what is
 /// rounded.
-HWY_INLINE VF with_sign_of(VF a, VF rounded) { return kIsScalar ? hn::CopySign(rounded, a) : rounded; }
+HWY_INLINE VF with_sign_of(VF a, VF rounded) { return kRoundsByInstruction ? rounded : hn::CopySign(rounded, a); }
 
 struct Copy {
   HWY_INLINE VF operator()(VF a) const { return a; }
