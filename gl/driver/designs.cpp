@@ -187,7 +187,7 @@ void GlPeer::Work::bin_lights() {
   tile_records = make_texel_buffer(tiles.records);
 }
 
-/// What a light program of its own reads beside surfaces and lights.
+/// Binds what the pipeline's own light program reads beside surfaces and lights; under a light model nothing.
 void GlPeer::Work::use_light_program(GLuint program) {
   if (!pipeline.light_program.used()) return;
   bind_texture(program, "materials", kMaterialUnit, GL_TEXTURE_BUFFER, renderer.buffers().material_texels(pipeline));

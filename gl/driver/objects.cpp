@@ -85,7 +85,7 @@ GlTexelBuffer texel_buffer(GLenum internal, const void* bytes, size_t size, size
     throw Error(
         ErrorKind::limit, "OpenGL",
         "the driver reads buffers of " + std::to_string(most) + " texels, and one has " + std::to_string(size / texel),
-        "fewer lights, or another driver");
+        "a smaller scene, or another driver");
   GlTexelBuffer out;
   out.buffer = make_buffer(GL_TEXTURE_BUFFER, size == 0 ? nullptr : bytes, size == 0 ? texel : size);
   GLuint name = 0;
