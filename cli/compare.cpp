@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 
@@ -60,10 +61,6 @@ void check_picture_outputs(const CompareOptions& options) {
   if (options.junit) check_writable(*options.junit);
 }
 
-void write_text(const std::string& path, const std::string& text) {
-  write_file(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
-}
-
 StandardOutput answers(const CompareOptions& options) {
   return options.json ? StandardOutput::answer : StandardOutput::files;
 }
@@ -123,12 +120,17 @@ int compare_two_pictures(const CompareOptions& options) {
 }
 
 int compare_two_folders(CompareOptions options) {
+  const auto first_page = std::stable_partition(options.outputs.begin(), options.outputs.end(),
+                                                [](const std::string& path) { return !is_page(path); });
+  const std::vector<std::string> galleries(first_page, options.outputs.end());
+  options.outputs.erase(first_page, options.outputs.end());
   if (options.outputs.size() > 1) throw usage("-o", "one folder takes all maps", "name one");
+  for (const std::string& gallery : galleries) check_writable(gallery);
   for (const std::string& folder : options.outputs) {
     std::error_code unknown;
-    if (has_ending(folder, ".png") || has_ending(folder, ".exr") || is_page(folder))
+    if (has_ending(folder, ".png") || has_ending(folder, ".exr"))
       throw usage("-o", "'" + folder + "' is named like a file, and of folders maps are written into a folder",
-                  "name a folder, or compare two pictures for a file");
+                  "name a folder, or a page that ends in .html");
     if (fs::exists(folder, unknown) && !is_folder(folder))
       throw usage("-o", "'" + folder + "' is no folder, and of folders maps are written into one", "name a folder");
     options.rules.wants_flip = true;
@@ -137,10 +139,15 @@ int compare_two_folders(CompareOptions options) {
   FolderComparison folders;
   {
     ProgressBar bar("comparing", "pictures");
-    folders = compared_folders(options, [&bar](int done, int count) { bar.show(done, count); });
+    folders = compared_folders(options, !galleries.empty(), [&bar](int done, int count) { bar.show(done, count); });
+  }
+  for (const std::string& gallery : galleries) {
+    const Activity activity("making the page");
+    write_text(gallery, gallery_page(folders, options, gallery));
   }
   if (options.junit) write_text(*options.junit, junit_xml(folders));
   print(options.json ? rows_json(folders) : shown_report(rows_text(folders)));
+  for (const std::string& gallery : galleries) say_written(gallery, "HTML report", answers(options));
   if (options.junit) say_written(*options.junit, "JUnit", answers(options));
   return folders.exit_code();
 }

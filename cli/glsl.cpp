@@ -34,10 +34,6 @@ oracle::GlslOptions options_of_scene(const Scene& scene) {
   return options;
 }
 
-void write_text(const std::string& path, const std::string& text) {
-  write_file(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
-}
-
 }  // namespace
 
 void write_glsl(const GlslFilesOptions& asked) {

@@ -133,9 +133,10 @@ CommandTable compare_table(CompareOptions& options, CompareTexts& texts) {
       .is_required = true;
   add_value(table, "TEST", "FILE", options.test, "Picture that is in question, or a folder, or -").is_required = true;
   table.open_group = "Output";
-  add_values(table, "-o,--output", "FILE", options.outputs,
-             "Differences to write: .png as FLIP's map, .exr as numbers, .html as a page to look into; of folders a "
-             "folder for maps; may be repeated");
+  add_values(
+      table, "-o,--output", "FILE", options.outputs,
+      "Differences to write: .png as FLIP's map, .exr as numbers, .html as a page to look into; of folders "
+      ".html as a gallery, and a folder for maps, and for each picture's page beside a gallery; may be repeated");
   add_value(table, "--junit", "FILE", options.junit, "JUnit XML to write, .xml, for CI services");
   add_switch(table, "--accept", options.accept,
              "Copy test pictures that do not pass over their references, but none that is not finite");
@@ -151,7 +152,9 @@ CommandTable compare_table(CompareOptions& options, CompareTexts& texts) {
       "that do not fit together, fail under every criterion.\n"
       "Exit codes: 0 they pass, 1 they do not; others as for trueshade.";
   table.examples = {{"trueshade compare golden.png now.png --max-difference 1/255", "Equal but for one code."},
-                    {"trueshade compare golden now --junit result.xml", "Two folders of pictures, for a CI service."}};
+                    {"trueshade compare golden now --junit result.xml", "Two folders of pictures, for a CI service."},
+                    {"trueshade compare golden now -o report.html -o maps",
+                     "A gallery of both, the worst first, with a page of each that differs."}};
   table.see_also = {"render", "validate"};
   table.finished = [&options, &texts]() -> Command { return finished(std::move(options), texts); };
   return table;

@@ -181,7 +181,7 @@ struct CompareOptions : LimitedOptions {
   std::vector<std::string> channels;  ///< names; empty: all
   bool bottom_up = false;             ///< the test's first row is its lowest
   bool judges = true;                 ///< by the reference's scene, where it carries one and no criterion is given
-  std::vector<std::string> outputs;   ///< .png, .exr or .html; of folders one folder
+  std::vector<std::string> outputs;   ///< .png, .exr or .html; of folders .html and one folder
   std::optional<std::string> junit;   ///< .xml
   bool accept = false;                ///< copy test pictures that do not pass over their references
   std::string command_line;           ///< as it was given, for a shell

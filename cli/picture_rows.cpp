@@ -8,6 +8,8 @@
 #include <system_error>
 
 #include "cli/accepting.h"
+#include "cli/shell_words.h"
+#include "cli/written_files.h"
 #include "core/error.h"
 #include "core/file_ending.h"
 #include "core/file_notes.h"
@@ -52,7 +54,8 @@ std::string values_text(const compare::PixelValues& pixel) {
 
 class FolderComparer {
  public:
-  explicit FolderComparer(const CompareOptions& options) : options_(options), mask_(mask_file(options)) {}
+  FolderComparer(const CompareOptions& options, bool pages)
+      : options_(options), pages_(pages), mask_(mask_file(options)) {}
 
   PictureRow compare(const std::string& name, bool in_reference, bool in_test) const {
     const auto start = std::chrono::steady_clock::now();
@@ -121,14 +124,19 @@ class FolderComparer {
     for (const compare::ChannelDifferences& channel : c.differences.channels)
       row.largest = std::max(row.largest, channel.largest);
     if (c.flip) row.flip_mean = c.flip->mean;
-    for (const std::string& folder : options_.outputs)
-      if (!passes(row) && c.flip) write_map(pictures, (fs::path(folder) / (row.name + ".flip.png")).string());
+    if (passes(row)) return;
+    for (const std::string& folder : options_.outputs) {
+      const std::string path = (fs::path(folder) / row.name).string();
+      std::error_code failed;  // what is written says what is wrong where the folder is not there
+      fs::create_directories(fs::path(path).parent_path(), failed);
+      if (c.flip) write_differences(pictures, path + ".flip.png");
+      if (pages_) write_text(path + ".html", comparison_page(pictures, command_of(row)));
+    }
   }
 
-  static void write_map(const ComparedPictures& pictures, const std::string& path) {
-    std::error_code failed;
-    fs::create_directories(fs::path(path).parent_path(), failed);
-    write_differences(pictures, path);  // says what is wrong where the folder is not there
+  /// The command that makes the picture's page.
+  std::string command_of(const PictureRow& row) const {
+    return "trueshade compare " + for_shell(reference(row)) + ' ' + for_shell(test(row)) + " -o page.html";
   }
 
   void accept(const PictureFile& picture, PictureRow& row) const {
@@ -139,6 +147,7 @@ class FolderComparer {
   }
 
   const CompareOptions& options_;
+  const bool pages_;
   const std::optional<PictureFile> mask_;
 };
 
@@ -180,7 +189,7 @@ std::set<std::string> pictures_in(const std::string& folder, uint64_t& passed_ov
   return names;
 }
 
-FolderComparison compared_folders(const CompareOptions& options, const std::function<void(int, int)>& see) {
+FolderComparison compared_folders(const CompareOptions& options, bool pages, const std::function<void(int, int)>& see) {
   FolderComparison folders{options.reference, options.test, {}, 0};
   const std::set<std::string> of_reference = pictures_in(options.reference, folders.passed_over),
                               of_test = pictures_in(options.test, folders.passed_over);
@@ -191,7 +200,7 @@ FolderComparison compared_folders(const CompareOptions& options, const std::func
   if (names.empty())
     throw Error(ErrorKind::bad_input, options.reference, "there is no picture in it, nor in " + options.test,
                 "name folders with .exr, .png, .hdr, .tif, .dds, .npy or .jpg in them");
-  const FolderComparer comparer(options);
+  const FolderComparer comparer(options, pages);
   for (const std::string& name : names) {
     folders.rows.push_back(comparer.compare(name, of_reference.contains(name), of_test.contains(name)));
     see(int(folders.rows.size()), int(names.size()));

@@ -44,14 +44,21 @@ struct FolderComparison {
 /// of files whose names do not end as a picture's to `passed_over`. Error(io): a folder that cannot be listed.
 std::set<std::string> pictures_in(const std::string& folder, uint64_t& passed_over);
 
-/// Compares pictures of equal relative names, folders within folders too. Accepts, and writes maps of differences into
-/// the folder of -o, as the options say. `see` is told how many of how many are done.
-/// Error(bad_input): no picture in either. Error(io): a folder that cannot be listed, a file that cannot be written.
-FolderComparison compared_folders(const CompareOptions& options, const std::function<void(int, int)>& see);
+/// Compares pictures of equal relative names, folders within folders too. Accepts, and writes maps of differences, and
+/// with `pages` comparison_page()s, into the folders of -o, as the options say. `see` is told how many of how many are
+/// done. Error(bad_input): no picture in either. Error(io): a folder that cannot be listed, a file that cannot be
+/// written.
+FolderComparison compared_folders(const CompareOptions& options, bool pages, const std::function<void(int, int)>& see);
 
 /// A line that says how it went, and a table.
 std::string rows_text(const FolderComparison& folders);
 std::string rows_json(const FolderComparison& folders);
+/// `2 of 3 pictures do not pass, 1 accepted`.
+std::string verdict_of_rows(const FolderComparison& folders);
+
+/// A page of HTML that needs no other file: a gallery, the worst first. It reads the pictures again.
+///   gallery: the page's own name, from whose folder links to what stands in the folders of -o begin
+std::string gallery_page(const FolderComparison& folders, const CompareOptions& options, const std::string& gallery);
 
 /// `DIFFERENT`, ...; `different`, ...
 std::string_view name_of(RowState state);

@@ -42,19 +42,24 @@ std::string_view name_of(RowState state) {
   return {};  // unreachable: every enumerator returns above
 }
 
+std::string verdict_of_rows(const FolderComparison& folders) {
+  const size_t failures = folders.failures();
+  const std::string all = std::to_string(folders.rows.size());
+  const auto accepted =
+      std::count_if(folders.rows.begin(), folders.rows.end(), [](const PictureRow& r) { return r.is_accepted; });
+  return (failures == 0 ? "all " + all + " pictures pass"
+                        : std::to_string(failures) + " of " + all + " pictures do not pass") +
+         (accepted > 0 ? ", " + std::to_string(accepted) + " accepted" : "");
+}
+
 std::string rows_text(const FolderComparison& folders) {
-  const size_t failures = folders.failures(), all = folders.rows.size();
-  size_t accepted = 0, same = 0, name_width = 7;
+  const size_t all = folders.rows.size();
+  size_t same = 0, name_width = 7;
   for (const PictureRow& row : folders.rows) {
-    accepted += row.is_accepted ? 1 : 0;
     same += row.state == RowState::same ? 1 : 0;
     if (row.state != RowState::same) name_width = std::max(name_width, printable(row.name, Lines::one).size());
   }
-  std::string text =
-      "verdict     " +
-      (failures == 0 ? "all " + std::to_string(all) + " pictures pass"
-                     : std::to_string(failures) + " of " + std::to_string(all) + " pictures do not pass") +
-      (accepted > 0 ? ", " + std::to_string(accepted) + " accepted" : "") + '\n';
+  std::string text = "verdict     " + verdict_of_rows(folders) + '\n';
   text += "reference   " + printable(folders.reference, Lines::one) + '\n';
   text += "test        " + printable(folders.test, Lines::one) + '\n';
   if (folders.passed_over > 0)

@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/picture_output.h"
 #include "cli/terminal.h"
+#include "core/image_files/image_io.h"
 #include "core/printable_text.h"
 
 namespace trueshade {
@@ -47,6 +48,10 @@ void say_written(const std::string& path, const std::string& about, StandardOutp
   if (standard_output == StandardOutput::files && !is_output && !(known && is_same_as_output(file)))
     return print(printable(line, Lines::one) + '\n');
   say(line);
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  write_file(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
 }
 
 std::string kind_of_file(const std::string& path) {

@@ -14,6 +14,9 @@ enum class StandardOutput : uint8_t {
 /// size. A file that is standard output itself keeps its bytes: its line goes to standard error.
 void say_written(const std::string& path, const std::string& about, StandardOutput standard_output);
 
+/// write_file() of a text.
+void write_text(const std::string& path, const std::string& text);
+
 /// `PNG` of a name that ends in .png.
 std::string kind_of_file(const std::string& path);
 

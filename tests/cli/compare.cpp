@@ -329,8 +329,80 @@ TEST_CASE("folders behind links are compared too, links that lead back end, and 
   says(outcome, "worst at 0,0: R 0.25 against 0.5, G 0.25 against 0.5");
   // The report shows what a reader needs: the pixel and both values.
   CHECK(content_of(folder.path("j.xml")).find("first pixel at 0,0") != std::string::npos);
-  check_refused(run_compare(folder, {"ref", "test", "-o", "page.html"}), 2, "is named like a file");
-  CHECK_FALSE(fs::exists(folder.path("page.html")));
+  check_refused(run_compare(folder, {"ref", "test", "-o", "map.png"}), 2, "is named like a file");
+  CHECK_FALSE(fs::exists(folder.path("map.png")));
+}
+
+/// How often a text holds another.
+size_t count_of(const std::string& text, const std::string& part) {
+  size_t count = 0;
+  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST_CASE("a gallery of two folders shows each picture, the worst first, and leads to a page of each that differs") {
+  ScratchFolder folder;
+  namespace fs = std::filesystem;
+  for (const char* name : {"ref/in", "test/in"}) fs::create_directories(folder.path(name));
+  const std::string odd = "in/a <b> & 50%#\".exr";
+  const auto write = [&](const std::string& name, int width, double value) {
+    write_floats(folder.path(name), even_plane(width, 8, 3, value), kRgb);
+  };
+  write("ref/same.exr", 8, 0.25), write("test/same.exr", 8, 0.25);
+  write("ref/" + odd, 8, 0.25), write("test/" + odd, 8, 0.5);
+  write("ref/wide.exr", 8, 0.25), write("test/wide.exr", 9, 0.25);
+  write("ref/gone.exr", 8, 0.25), write("test/new.exr", 8, 0.25);
+  write("ref/torn.exr", 8, 0.25), folder.write("test/torn.exr", "no picture\n");
+  const Outcome outcome = run_compare(folder, {"ref", "test", "-o", "report/all.html", "-o", "maps"});
+  CHECK(outcome.exit_code == 5);  // the folder of the page is not there
+  fs::create_directories(folder.path("report"));
+  const Outcome again = run_compare(folder, {"ref", "test", "--no-judge", "-o", "report/all.html", "-o", "maps"});
+  CHECK(again.exit_code == 3);  // of the file that cannot be read
+  says(again, "wrote report/all.html (HTML report");
+  const std::string html = content_of(folder.path("report/all.html"));
+  CHECK(html.find("5 of 6 pictures do not pass") != std::string::npos);
+  size_t before = 0;
+  for (const char* state : {"unreadable", "extra", "missing", "mismatched", "different", "same"}) {
+    CAPTURE(state);
+    const size_t at = html.find("<article class=\"pair " + std::string(state == std::string("same") ? "good" : "bad") +
+                                "\" data-state=" + state + " ");
+    REQUIRE(at != std::string::npos);
+    CHECK(at > before);
+    before = at;
+    CHECK(count_of(html, "data-state=" + std::string(state) + ">" + state + " 1</button>") == 1);
+  }
+  // Three pictures of what differs, two of what does not fit, one of each other.
+  CHECK(count_of(html, "<figure data-side=\"Difference\">") == 1);
+  CHECK(count_of(html, "<figure data-side=") == 3 + 2 + 1 + 1 + 1 + 1);
+  CHECK(html.find("in/a &lt;b&gt; &amp; 50%#&quot;.exr") != std::string::npos);
+  CHECK(html.find("<b> &") == std::string::npos);
+  CHECK(html.find("href=\"../maps/in/a%20%3Cb%3E%20%26%2050%25%23%22.exr.html\"") != std::string::npos);
+  const std::string page = content_of(folder.path("maps/" + odd + ".html"));
+  CHECK(page.find("64 of 64 pixels differ, by 0.25 at most") != std::string::npos);
+  CHECK_FALSE(fs::exists(folder.path("maps/same.exr.html")));
+  // Without a gallery there are maps alone, and a gallery alone writes nothing else.
+  const std::vector<std::string> entries = folder.entries();
+  CHECK(run_compare(folder, {"ref", "test", "--no-judge", "-o", "report/all.html"}).exit_code == 3);
+  CHECK(folder.entries() == entries);
+  check_refused(run_compare(folder, {"ref", "test", "-o", "ref/same.exr/p.html"}), 5, "p.html");
+}
+
+TEST_CASE("a gallery of pictures that are noise has the bytes that it may have") {
+  ScratchFolder folder;
+  namespace fs = std::filesystem;
+  for (const char* name : {"ref", "test"}) fs::create_directories(folder.path(name));
+  uint32_t seed = 1;
+  Image noise(640, 640, Format::rgba8);
+  for (const char* side : {"ref", "test"}) {
+    for (uint8_t& texel : noise.texels) texel = uint8_t((seed = seed * 1664525u + 1013904223u) >> 24);
+    write_image(folder.path(std::string(side) + "/0.png"), noise, {}, {});
+    for (int i = 1; i < 12; ++i)
+      fs::copy(folder.path(std::string(side) + "/0.png"), folder.path(side + ('/' + std::to_string(i)) + ".png"));
+  }
+  CHECK(run_compare(folder, {"ref", "test", "--no-judge", "-o", "all.html"}).exit_code == 1);
+  const auto size = fs::file_size(folder.path("all.html"));
+  CHECK(size < 20'000'000);  // 36 pictures of 1.2 MB each would be 58 MB
+  CHECK(size > 8'000'000);   // and they are as large as that lets them be
 }
 
 TEST_CASE("bad input to compare is one line, and leaves nothing behind") {

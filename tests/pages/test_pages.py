@@ -171,6 +171,50 @@ class Page(unittest.TestCase):
         print(f"1920x1080: {os.path.getsize(path) / 1e6:.1f} MB, usable after {took:.2f} s")
         self.assertLess(took, 2)
 
+    def test_a_gallery_of_200_pictures_opens_soon_and_is_worked_by_keyboard(self):
+        for side, lights in (("golden", 3), ("drawn", 5)):
+            os.makedirs(os.path.join(FOLDER.name, side), exist_ok=True)
+            for i in range(3):
+                trueshade("render", f"builtin:cornell,lights={lights + i}", "--size", "160x120", "-q", "-o", f"{side}/{i}.png")
+            for i in range(3, 200):  # of which 150 are the same on both sides
+                source = os.path.join(FOLDER.name, side if i < 50 else "golden", f"{i % 3}.png")
+                with open(source, "rb") as file, open(os.path.join(FOLDER.name, side, f"{i}.png"), "wb") as copy:
+                    copy.write(file.read())
+        trueshade("compare", "golden", "drawn", "--no-judge", "-o", "gallery.html", codes=(1,))
+        path = os.path.join(FOLDER.name, "gallery.html")
+        self.assertLess(os.path.getsize(path), 20e6)
+        shown = "return [...document.querySelectorAll('#gallery .pair')].filter(p => !p.hidden).length;"
+        for width, height in ((1280, 900), (390, 844)):
+            self.browser.resize(width, height)
+            self.browser.open("/dev/null")
+            start = time.monotonic()
+            self.browser.open(path)
+            self.browser.wait("document.getElementById('gallery').gallery")
+            self.assertLess(time.monotonic() - start, 2)
+            self.assertEqual(self.browser.run(shown), 200)
+            self.press("different 50", "#filters")
+            self.assertEqual(self.browser.run(shown), 50)
+            self.browser.run("const p = document.getElementById('part'); p.value = '7.png'; p.dispatchEvent(new Event('input'));")
+            self.assertEqual(self.browser.run(shown), 5)
+            self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth;"), width)
+            self.browser.run("document.querySelector('#gallery .pair:not([hidden]) img').click();")
+            name = "return document.querySelector('.looker h2').textContent;"
+            first = self.browser.run(name)
+            clip = "return document.querySelector('.stack img + img').style.clipPath;"
+            before = self.browser.run(clip)
+            self.browser.key("ArrowRight")
+            self.assertNotEqual(self.browser.run(clip), before)
+            self.browser.key("n")
+            self.assertNotEqual(self.browser.run(name), first)
+            self.browser.key("d")
+            self.assertEqual(self.browser.run("return document.querySelector('.looker [aria-pressed=true]').textContent;"), "Difference")
+            self.browser.key("p")
+            self.assertEqual(self.browser.run(name), first)
+            box = self.box(".large")
+            self.assertLessEqual(box[0] + box[2], width)
+            self.browser.key("Escape")
+            self.assertFalse(self.browser.run("return document.querySelector('.looker').open;"))
+
     def test_the_slider_moves_by_mouse_and_by_keyboard(self):
         self.open(wrong_page())
         self.press("Slider")

@@ -9,6 +9,8 @@ function toggle_theme() {
 async function start_page() {
   document.getElementById("theme")?.addEventListener("click", toggle_theme);
   for (const code of document.querySelectorAll(".command > code")) code.after(copy_button(() => code.textContent));
+  const gallery = document.getElementById("gallery");
+  if (gallery) gallery.gallery = new Gallery(gallery);
   const root = document.getElementById("viewer");
   if (!root) return;
   if (typeof DecompressionStream === "undefined") {
