@@ -171,6 +171,16 @@ class Page(unittest.TestCase):
         print(f"1920x1080: {os.path.getsize(path) / 1e6:.1f} MB, usable after {took:.2f} s")
         self.assertLess(took, 2)
 
+    def test_small_pictures_stand_where_large_ones_are_not_yet_unpacked(self):
+        self.open(wrong_page())
+        places = [(pane, x, y) for pane in range(2) for x in range(8, 96, 16) for y in range(8, 72, 16)]
+        right = [self.color_at(*place) for place in places]
+        self.assertGreater(max(sum(color) for color in right), 200)
+        self.viewer("(v.panes.painted = () => null, v.panes.is_painted = () => false, v.panes.redraw())")
+        self.browser.wait("!document.getElementById('viewer').viewer.panes.is_due")
+        off = [abs(a - b) for place, color in zip(places, right) for a, b in zip(color, self.color_at(*place))]
+        self.assertLess(sum(off) / len(off), 4)  # a picture that is scaled is smooth between its pixels
+
     def test_a_gallery_of_200_pictures_opens_soon_and_is_worked_by_keyboard(self):
         for side, lights in (("golden", 3), ("drawn", 5)):
             os.makedirs(os.path.join(FOLDER.name, side), exist_ok=True)
@@ -214,6 +224,7 @@ class Page(unittest.TestCase):
             self.assertLessEqual(box[0] + box[2], width)
             self.browser.key("Escape")
             self.assertFalse(self.browser.run("return document.querySelector('.looker').open;"))
+        self.browser.resize(1280, 900)
 
     def test_the_slider_moves_by_mouse_and_by_keyboard(self):
         self.open(wrong_page())

@@ -27,6 +27,8 @@ class Panes {
     this.is_due = false;
     this.missing = 0;
     this.sizes = new ResizeObserver(() => this.redraw());
+    // Reduced pictures, which are for paper too: they stand where a layer of their name is not yet unpacked.
+    this.small = new Map([...document.querySelectorAll(".static img")].map(image => [image.alt, image]));
   }
 
   /// Shows these, each {canvas, layer} or, for the slider, {canvas, layer, right}.
@@ -128,7 +130,9 @@ class Panes {
     context.rect(from, 0, to - from, height);
     context.clip();
     const area = {from, to, height};
-    const reduced = layer.reduced;
+    const reduced = layer.reduced, small = this.small.get(layer.name);
+    if (small?.complete && !this.is_painted(layer, reduced || layer.whole_level, frame, area))
+      context.drawImage(small, frame.left, frame.top, this.width * frame.zoom, this.height * frame.zoom);
     if (!reduced || frame.zoom * reduced.scale > 1.5) {
       if (reduced && !this.is_painted(layer, layer.whole_level, frame, area)) this.draw_level(layer, reduced, frame, area);
       this.draw_level(layer, layer.whole_level, frame, area);
