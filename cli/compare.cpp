@@ -9,6 +9,7 @@
 #include "cli/junit.h"
 #include "cli/notes.h"
 #include "cli/option_values.h"
+#include "cli/picture_output.h"
 #include "cli/picture_rows.h"
 #include "cli/progress_bar.h"
 #include "cli/written_files.h"
@@ -56,9 +57,9 @@ void check_picture_outputs(const CompareOptions& options) {
   for (const std::string& path : options.outputs) {
     if (!has_ending(path, ".png") && !has_ending(path, ".exr") && !is_page(path))
       throw usage("-o", "no format has the ending of '" + path + "'", "end the name in .png, .exr or .html");
-    check_writable(path);
+    check_file_output(path);
   }
-  if (options.junit) check_writable(*options.junit);
+  if (options.junit) check_file_output(*options.junit);
 }
 
 StandardOutput answers(const CompareOptions& options) {
@@ -125,7 +126,7 @@ int compare_two_folders(CompareOptions options) {
   const std::vector<std::string> galleries(first_page, options.outputs.end());
   options.outputs.erase(first_page, options.outputs.end());
   if (options.outputs.size() > 1) throw usage("-o", "one folder takes all maps", "name one");
-  for (const std::string& gallery : galleries) check_writable(gallery);
+  for (const std::string& gallery : galleries) check_file_output(gallery);
   for (const std::string& folder : options.outputs) {
     std::error_code unknown;
     if (has_ending(folder, ".png") || has_ending(folder, ".exr"))
@@ -135,7 +136,7 @@ int compare_two_folders(CompareOptions options) {
       throw usage("-o", "'" + folder + "' is no folder, and of folders maps are written into one", "name a folder");
     options.rules.wants_flip = true;
   }
-  if (options.junit) check_writable(*options.junit);
+  if (options.junit) check_file_output(*options.junit);
   FolderComparison folders;
   {
     ProgressBar bar("comparing", "pictures");
@@ -143,6 +144,7 @@ int compare_two_folders(CompareOptions options) {
   }
   for (const std::string& gallery : galleries) {
     const Activity activity("making the page");
+    make_folder_of(gallery);  // from which its links begin
     write_text(gallery, gallery_page(folders, options, gallery));
   }
   if (options.junit) write_text(*options.junit, junit_xml(folders));

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "cli/compared_pictures.h"
+#include "cli/picture_output.h"
 #include "compare/error_colors.h"
 #include "core/file_ending.h"
 #include "core/image_files/image_io.h"
@@ -51,6 +52,7 @@ std::string why_no_differences(const ComparedPictures& pictures, const std::stri
 }
 
 void write_differences(const ComparedPictures& pictures, const std::string& path) {
+  make_folder_of(path);
   if (!has_ending(path, ".png")) return write_difference_exr(pictures, path);
   const ChannelFile& part = pictures.reference.parts.front();
   write_image(path, compare::error_picture(pictures.comparison.flip->map, part.width, part.height), {},

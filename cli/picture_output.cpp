@@ -3,6 +3,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 
 #include "cli/commands.h"
 #include "cli/option_values.h"
@@ -21,8 +23,24 @@ void check_standard_output(const std::vector<std::string>& outputs, const std::s
     throw usage(prints, "standard output takes the file, and nothing else", "leave it out, or name a file for -o");
 }
 
+void check_file_output(const std::string& path) {
+  std::error_code unknown;
+  std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (folder.empty() || std::filesystem::exists(folder, unknown)) return check_writable(path);
+  while (!folder.empty() && !std::filesystem::exists(folder, unknown)) folder = folder.parent_path();
+  const bool may_be_made = std::filesystem::is_directory(folder.empty() ? "." : folder, unknown) &&
+                           access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) == 0;
+  if (!may_be_made) check_writable(path);  // says what is wrong
+}
+
+void make_folder_of(const std::string& path) {
+  std::error_code failed;
+  if (const auto folder = std::filesystem::path(path).parent_path(); !folder.empty())
+    std::filesystem::create_directories(folder, failed);
+}
+
 void check_output(const std::string& path) {
-  if (!is_standard_output(path)) return check_writable(path);
+  if (!is_standard_output(path)) return check_file_output(path);
   if (isatty(STDOUT_FILENO) != 0)
     throw usage("-o", "standard output is a terminal", "send it into a file or a program, or name a file");
 }

@@ -127,8 +127,6 @@ class FolderComparer {
     if (passes(row)) return;
     for (const std::string& folder : options_.outputs) {
       const std::string path = (fs::path(folder) / row.name).string();
-      std::error_code failed;  // what is written says what is wrong where the folder is not there
-      fs::create_directories(fs::path(path).parent_path(), failed);
       if (c.flip) write_differences(pictures, path + ".flip.png");
       if (pages_) write_text(path + ".html", comparison_page(pictures, command_of(row)));
     }

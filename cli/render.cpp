@@ -46,7 +46,7 @@ void check_cube_map(const RenderOptions& options, const Pipeline& pipeline) {
 void check_outputs(const RenderOptions& options, const MpiStart& start) {
   if (start.by_mpi) {
     for (const std::string& path : options.outputs)
-      if (start.rank == 0 && !is_standard_output(path)) check_writable(path);
+      if (start.rank == 0 && !is_standard_output(path)) make_folder_of(path), check_writable(path);
   } else if (options.raw_video) {
     check_video_is_taken();
   } else {
@@ -89,6 +89,8 @@ void render(const RenderOptions& options) {
     if (ranks->own() != 0) return;
   } else {
     SceneToRender of(options, execution_of(options));
+    for (const std::string& path : options.outputs)
+      if (!is_standard_output(path)) make_folder_of(path);
     Pictures pictures(options, of.cached, of.pipeline, execution_of(options));
     if (options.frames)
       render_frames(options, pictures, sink);

@@ -73,6 +73,7 @@ void save(const oracle::Capture& capture, const std::string& path) {
   std::vector<NamedImage> planes;
   for (const NamedImage& plane : capture.planes)
     if (std::find(std::begin(kPlanes), std::end(kPlanes), plane.name) != std::end(kPlanes)) planes.push_back(plane);
+  make_folder_of(path);
   write_image(path, capture.color, planes, {{"trueshade:driver", capture.driver}});
 }
 
@@ -126,10 +127,10 @@ void say_files(const ValidationOptions& options, const Validation& v) {
 }
 
 void check_outputs(const ValidationOptions& options) {
-  if (options.report) check_writable(*options.report);
+  if (options.report) check_file_output(*options.report);
   std::error_code unknown;
   for (const std::string& path : options.saved) {
-    check_writable(path);
+    check_file_output(path);
     if (std::filesystem::equivalent(path, options.mask.file, unknown))
       throw usage("--save", "'" + path + "' is the mask", "give it another name");
   }
@@ -201,7 +202,7 @@ bool judge_opengl(const ValidationOptions& options) {
     const std::string against = !options.saved.empty() ? options.saved.front() : picture_of(options.capture);
     v.explain_command = explain_command(options, v.pipeline, options.time, against);
     const std::string page = validation_page(v, scene);
-    write_file(*options.report, {reinterpret_cast<const uint8_t*>(page.data()), page.size()});
+    write_text(*options.report, page);
   }
   const std::string text = options.json ? validation_json(v) : shown_report(validation_text(v));
   activity.reset();

@@ -51,6 +51,7 @@ void say_written(const std::string& path, const std::string& about, StandardOutp
 }
 
 void write_text(const std::string& path, const std::string& text) {
+  make_folder_of(path);
   write_file(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
 }
 

@@ -14,7 +14,7 @@ enum class StandardOutput : uint8_t {
 /// size. A file that is standard output itself keeps its bytes: its line goes to standard error.
 void say_written(const std::string& path, const std::string& about, StandardOutput standard_output);
 
-/// write_file() of a text.
+/// write_file() of a text, into a folder that is made if it is not there.
 void write_text(const std::string& path, const std::string& text);
 
 /// `PNG` of a name that ends in .png.

@@ -112,7 +112,8 @@ TEST_CASE("an output that cannot be written is exit 5, and nothing is left") {
     arguments.push_back(path);
     return arguments;
   };
-  check_refused(run_command(with("absent/x.png"), folder.path("")), 5, "absent/x.png");
+  std::ofstream(folder.path("file")) << "no folder";
+  check_refused(run_command(with("file/x.png"), folder.path("")), 5, "file/x.png");
   check_refused(run_command(with(std::string(252, 'n') + ".png"), folder.path("")), 5, "choose a shorter name");
   std::filesystem::create_directory(folder.path("folder.png"));
   check_refused(run_command(with("folder.png"), folder.path("")), 5, "folder.png");
@@ -122,7 +123,17 @@ TEST_CASE("an output that cannot be written is exit 5, and nothing is left") {
     check_refused(run_command(with("shut/x.png"), folder.path("")), 5, "shut/x.png");
     std::filesystem::remove(folder.path("shut"));
   }
-  CHECK(folder.entries() == std::vector<std::string>{"folder.png"});
+  CHECK(folder.entries() == std::vector<std::string>{"file", "folder.png"});
+}
+
+TEST_CASE("the folder of an output is made, and none where nothing is written") {
+  const ScratchFolder folder;
+  const std::string path = folder.path("");
+  CHECK(run_command({"render", "builtin:cornell", "--size", "32x32", "-q", "-o", "a/b/x.png"}, path).exit_code == 0);
+  CHECK(std::filesystem::exists(folder.path("a/b/x.png")));
+  CHECK(run_command({"compare", "a/b/x.png", "a/b/x.png.png", "-o", "c/x.html"}, path).exit_code == 5);
+  check_refused(run_command({"render", "absent.json", "-o", "d/x.png"}, path), 5, "absent.json");
+  CHECK(folder.entries() == std::vector<std::string>{"a"});
 }
 
 TEST_CASE("a limit on file sizes ends a write in an error, not by a signal, and the old file stays") {

@@ -353,12 +353,9 @@ TEST_CASE("a gallery of two folders shows each picture, the worst first, and lea
   write("ref/wide.exr", 8, 0.25), write("test/wide.exr", 9, 0.25);
   write("ref/gone.exr", 8, 0.25), write("test/new.exr", 8, 0.25);
   write("ref/torn.exr", 8, 0.25), folder.write("test/torn.exr", "no picture\n");
-  const Outcome outcome = run_compare(folder, {"ref", "test", "-o", "report/all.html", "-o", "maps"});
-  CHECK(outcome.exit_code == 5);  // the folder of the page is not there
-  fs::create_directories(folder.path("report"));
-  const Outcome again = run_compare(folder, {"ref", "test", "--no-judge", "-o", "report/all.html", "-o", "maps"});
-  CHECK(again.exit_code == 3);  // of the file that cannot be read
-  says(again, "wrote report/all.html (HTML report");
+  const Outcome outcome = run_compare(folder, {"ref", "test", "--no-judge", "-o", "report/all.html", "-o", "maps"});
+  CHECK(outcome.exit_code == 3);  // of the file that cannot be read
+  says(outcome, "wrote report/all.html (HTML report");
   const std::string html = content_of(folder.path("report/all.html"));
   CHECK(html.find("5 of 6 pictures do not pass") != std::string::npos);
   size_t before = 0;
@@ -436,7 +433,7 @@ TEST_CASE("bad input to compare is one line, and leaves nothing behind") {
       {{"ref.exr", "./ref.exr"}, 2, "it is the same as the reference"},
       {{"ref.exr", "test.exr", "-o", "ref.exr"}, 2, "is one of the pictures that are compared"},
       {{"ref.exr", "test.exr", "-o", "map.jpg"}, 2, "no format has the ending"},
-      {{"ref.exr", "test.exr", "-o", "nowhere/map.png"}, 5, "nowhere/map.png"},
+      {{"ref.exr", "test.exr", "-o", "text.png/map.png"}, 5, "text.png/map.png"},
       {{"ref.exr", "test.exr", "--junit", "junit.txt"}, 2, "end the name in .xml"},
       {{"ref.exr", "test.exr", "--max-difference", "-1"}, 2, "--max-difference"},
       {{"ref.exr", "test.exr", "--max-difference", "2/0"}, 2, "--max-difference"},
