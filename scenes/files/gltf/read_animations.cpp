@@ -14,16 +14,11 @@ AnimationSampler read_sampler(const json::Node& node, const Counts& counts, cons
   sampler.input = index(input, counts.accessors, "accessor");
   sampler.output = index(output, counts.accessors, "accessor");
   if (const auto interpolation = node.find("interpolation")) sampler.between = kKinds[interpolation->choice(kNames)];
-  const Accessor &times = document.accessors[sampler.input], &values = document.accessors[sampler.output];
+  const Accessor& times = document.accessors[sampler.input];
   if (times.shape != Shape::scalar || times.type != Component::float32)
     input.fail("the accessor is not of times", "SCALAR of component type 5126");
   if (sampler.between == Between::cubic && times.count < 2)
     input.fail("a cubic spline has fewer than two steps", "two or more");
-  for (const json::Node* key : {&input, &output}) {
-    const Accessor& a = key == &input ? times : values;
-    if (a.view != kNone && document.views[a.view].stride != 0)
-      key->fail("the view of an animation has a stride", "a view without one");
-  }
   return sampler;
 }
 

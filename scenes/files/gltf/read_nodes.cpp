@@ -181,8 +181,6 @@ SkinSource read_skin(const json::Node& node, const Counts& counts, const Documen
     matrices->fail(
         "there are " + std::to_string(a.count) + " matrices for " + std::to_string(skin.joints.size()) + " joints",
         "one a joint");
-  if (a.view != kNone && document.views[a.view].stride != 0)
-    matrices->fail("the view of matrices has a stride", "a view without one");
   return skin;
 }
 

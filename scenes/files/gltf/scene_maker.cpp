@@ -284,6 +284,18 @@ void SceneMaker::add_notes() {
     for (const Channel& channel : document_.animations[0].channels) unknown_paths += channel.path == Path::unknown;
   note(unknown_paths, "channel", "channels",
        " of the animation without an effect: The path is none of translation, rotation, scale and weights");
+  uint64_t strided = 0;
+  const auto count_stride = [&](uint32_t accessor) {
+    const uint32_t view = document_.accessors[accessor].view;
+    strided += view != kNone && document_.views[view].stride != 0;
+  };
+  for (const SkinSource& skin : document_.skins)
+    if (skin.inverse_bind != kNone) count_stride(skin.inverse_bind);
+  for (const AnimationSource& animation : document_.animations)
+    for (const AnimationSampler& sampler : animation.samplers)
+      count_stride(sampler.input), count_stride(sampler.output);
+  note(strided, "accessor of joints or animations is", "accessors of joints or animations are",
+       " read by the stride of the view, which glTF keeps for vertices");
   std::string names;
   constexpr size_t kNamed = 5;
   const std::vector<std::string>& unread = document_.unread_extensions;

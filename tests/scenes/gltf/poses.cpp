@@ -303,6 +303,30 @@ TEST_CASE("copies of a skinned mesh, or of none, are named as ignored") {
   CHECK(without.notes == std::vector<std::string>{"2 nodes have" + note});
 }
 
+TEST_CASE("matrices of joints and steps of animations may lie apart by a stride, which a note says") {
+  Asset asset = skinned();
+  std::vector<float> matrices(2 * 20, 0.0f);
+  for (size_t m = 0; m < 2; ++m)
+    for (size_t k = 0; k < 4; ++k) matrices[20 * m + 5 * k] = 1.0f;
+  matrices[20 + 12] = -1.0f;
+  const std::vector<float> steps{1, 0, 0, 99, 1, 0, 8, 99};
+  const std::string of_matrices = std::to_string(asset.view(matrices, R"("byteStride": 80)")),
+                    of_steps = std::to_string(asset.view(steps, R"("byteStride": 16)"));
+  asset.accessor(R"("bufferView": )" + of_matrices + R"(, "componentType": 5126, "count": 2, "type": "MAT4")");  // 7
+  asset.accessor(R"("bufferView": )" + of_steps + R"(, "componentType": 5126, "count": 2, "type": "VEC3")");     // 8
+  std::string apart = skinned_rest(kMoved);
+  apart.replace(apart.find(R"("inverseBindMatrices": 4)"), 24, R"("inverseBindMatrices": 7)");
+  apart.replace(apart.find(R"("output": 6)"), 11, R"("output": 8)");
+  Scene scene = load_gltf(asset.gltf(apart)), beside = load_gltf(asset.gltf(skinned_rest(kMoved)));
+  CHECK(scene.notes == std::vector<std::string>{"2 accessors of joints or animations are read by the stride of the "
+                                                "view, which glTF keeps for vertices"});
+  CHECK(beside.notes.empty());
+  for (const double time : {0.0, 0.5, 1.0}) {
+    set_time(scene, time), set_time(beside, time);
+    for (int v = 0; v < 3; ++v) CHECK(vertex(scene, 0, v) == vertex(beside, 0, v));
+  }
+}
+
 TEST_CASE("skins that point nowhere are refused") {
   const Asset asset = skinned();
   const auto refused = [&](const std::string& from, const std::string& to) {
