@@ -115,6 +115,7 @@ double spread_light(const Light& lamp) {
 
 void add_lights_of_ours(Scene& scene) {
   const FpScope fp;
+  if (scene.lights_of_ours) return;
   const Bounds bounds = bounds_of(scene);
   const double gain = gain_of(scene);
   add_lamp(scene, bounds, {-0.8, 1.0, 0.9}, glm::dvec3(1.45, 1.36, 1.2) * gain);
