@@ -11,6 +11,7 @@
 #include "core/fp_env.h"
 #include "core/image_files/png_codes.h"
 #include "core/srgb.h"
+#include "raster/clusters/clusters.h"
 #include "scenes/lights_of_ours.h"
 #include "scenes/pipeline/fit_lights.h"
 #include "shading/frame.h"
@@ -119,46 +120,73 @@ struct MeasuredLight {
     const auto end = std::lower_bound(received.begin(), received.end(), bound);
     return received.empty() ? 0.0 : double(end - received.begin()) / double(received.size());
   }
-  double brightest() const { return quantile(0.95); }
+  double bright() const { return quantile(0.9); }
   bool any() const { return !received.empty(); }
 };
 
-constexpr double kNearlyBlack = 1.0 / 128;  // of the brightest, or of what is shown as it is
+constexpr double kNearlyBlack = 0.04;  // of what is bright
 
 double luminance_at(const Image& image, int x, int y) {
   return (0.2126 * image.value(x, y, 0) + 0.7152 * image.value(x, y, 1)) + 0.0722 * image.value(x, y, 2);
 }
 
-/// By a picture of at most 160 pixels a side, so that it does not depend on the size of the picture.
-MeasuredLight measured(const Pipeline& pipeline, Scene& scene) {
-  constexpr int kSide = 160;
-  Pipeline small = pipeline;
-  small.post = {};
-  small.view = ImageView::lit;
-  small.target = Format::rgba32f;
-  small.geometry.viewport = {};
-  const int longer = std::max(pipeline.width, pipeline.height);
-  small.width = std::max(1, int(int64_t(kSide) * pipeline.width / longer));
-  small.height = std::max(1, int(int64_t(kSide) * pipeline.height / longer));
-  const std::vector<Light> lights = scene.lights;
-  fit_lights_of_ours(scene, small);
-  const std::string planes[] = {"albedo", "id.object"};
-  const Frame frame = render_frame(scene, small, {}, planes);
-  scene.lights = lights;
-  const FpScope fp;
-  MeasuredLight light;
-  for (int y = 0; y < small.height; ++y)
-    for (int x = 0; x < small.width; ++x) {
-      if (frame.aovs[1].image.code(x, y, 0) == 0) continue;
-      const double received = luminance_at(frame.color, x, y) / std::max(luminance_at(frame.aovs[0].image, x, y), 0.04);
-      light.received.push_back(received >= 0.0 && std::isfinite(received) ? received : 0.0);
-    }
-  std::sort(light.received.begin(), light.received.end());
-  return light;
-}
+/// Measures by pictures of at most 160 pixels a side, so that the size of the picture has no say. Meshes are split into
+/// clusters once, and only where something is measured.
+class LightMeter {
+ public:
+  LightMeter(const Pipeline& pipeline, const ClusteredScene* stored, Scene& scene)
+      : pipeline_(small(pipeline)), scene_(scene), stored_(stored) {}
 
-/// Of lights whose surfaces show at most so much: a colour's factor that shows beside them.
-double beside(const MeasuredLight& light) { return light.brightest() > 0.0 ? std::min(light.brightest(), 1e12) : 1.0; }
+  /// Of what lies in a cache file: before more than frames of it are read.
+  void check_stored() {
+    if (stored_ != nullptr && stored_->source) stored_->source->check_all();
+    stored_ = nullptr;
+  }
+
+  MeasuredLight measure() {
+    check_stored();
+    if (!prepared_) prepared_.emplace(scene_);
+    const std::vector<Light> lights = scene_.lights;
+    fit_lights_of_ours(scene_, pipeline_);
+    const std::string planes[] = {"albedo", "id.object"};
+    const Frame frame = render_frame(*prepared_, pipeline_, {}, planes);
+    scene_.lights = lights;
+    const FpScope fp;
+    const Image &albedo = frame.aovs[0].image, &object = frame.aovs[1].image;
+    MeasuredLight light;
+    for (int y = 0; y < object.height; ++y)
+      for (int x = 0; x < object.width; ++x) {
+        if (object.code(x, y, 0) == 0) continue;
+        const double received = luminance_at(frame.color, x, y) / std::max(luminance_at(albedo, x, y), 0.04);
+        light.received.push_back(received >= 0.0 && std::isfinite(received) ? received : 0.0);
+      }
+    std::sort(light.received.begin(), light.received.end());
+    return light;
+  }
+
+ private:
+  static Pipeline small(Pipeline pipeline) {
+    constexpr int kSide = 160;
+    pipeline.post = {};
+    pipeline.view = ImageView::lit;
+    pipeline.target = Format::rgba32f;
+    pipeline.geometry.viewport = {};
+    const int longer = std::max(pipeline.width, pipeline.height);
+    for (int* side : {&pipeline.width, &pipeline.height}) *side = std::max(1, int(int64_t(kSide) * *side / longer));
+    return pipeline;
+  }
+
+  const Pipeline pipeline_;
+  Scene& scene_;
+  const ClusteredScene* stored_;
+  std::optional<PreparedScene> prepared_;
+};
+
+/// How many times as bright as usual lights are that show beside those of the scene: the upper quartile.
+double beside(const MeasuredLight& light) {
+  const double upper = light.quantile(0.75), there = upper > 0.0 ? upper : light.bright();
+  return there > 0.0 ? std::min(there, 1e12) : 1.0;
+}
 
 void remove_lights(Scene& scene) {
   scene.lights.clear();
@@ -187,28 +215,30 @@ void append_soft_light(Scene& scene, double factor) {
   scene.lights.push_back(ours.lights.back());
 }
 
-void change_lights(const std::string& choice, const Pipeline& pipeline, Scene& scene) {
+void change_lights(const std::string& choice, LightMeter& meter, Scene& scene) {
   if (choice == "none" || choice == "three") remove_lights(scene);
+  if (choice != "keep" && choice != "none") meter.check_stored();
   if (choice == "three") append_lights_of_ours(scene, 1.0);
   if (choice != "soft" && choice != "add") return;
-  const double factor = beside(measured(pipeline, scene));
+  const double factor = beside(meter.measure());
   const FpScope fp;
   choice == "add" ? append_lights_of_ours(scene, factor) : append_soft_light(scene, factor);
 }
 
 /// What a model's own lights call for: nothing, or a choice of --lights.
-std::optional<std::string> missing_lights(const Pipeline& pipeline, Scene& scene) {
+std::optional<std::string> missing_lights(LightMeter& meter, Scene& scene) {
   constexpr double kMostBlack = 0.25;  // of the surfaces
   if (scene.lights.empty() || scene.lights_of_ours) return std::nullopt;
-  const MeasuredLight light = measured(pipeline, scene);
+  const MeasuredLight light = meter.measure();
   if (!light.any()) return std::nullopt;
-  if (!(light.brightest() > 0.0)) {
+  if (!(light.bright() > 0.0)) {
     scene.notes.push_back(
-        "The file's lights reach next to no surface that is seen, so lights of ours are added (--lights keep leaves them "
+        "The file's lights reach next to no surface that is seen, so lights of ours are added (--lights keep leaves "
+        "them "
         "out)");
     return "add";
   }
-  if (light.share_below(kNearlyBlack * light.brightest()) < kMostBlack) return std::nullopt;
+  if (light.share_below(kNearlyBlack * light.bright()) < kMostBlack) return std::nullopt;
   scene.notes.push_back(
       "The file's lights leave a quarter and more of the surfaces black, so soft light from all sides is added "
       "(--lights keep leaves it out)");
@@ -218,7 +248,7 @@ std::optional<std::string> missing_lights(const Pipeline& pipeline, Scene& scene
 /// Stops, to an eighth, by which white surfaces in the middle of the received light show as half of white.
 double automatic_stops(const MeasuredLight& light) {
   constexpr double kShown = 0.5, kSteps = 8.0;
-  const auto lit = std::upper_bound(light.received.begin(), light.received.end(), kNearlyBlack * light.brightest());
+  const auto lit = std::upper_bound(light.received.begin(), light.received.end(), kNearlyBlack * light.bright());
   if (lit == light.received.end()) return 0.0;
   const double median = *(lit + (light.received.end() - lit) / 2);
   return std::clamp(std::round(kSteps * log2_of(kShown / median)) / kSteps, -kMostStops, kMostStops);
@@ -226,14 +256,16 @@ double automatic_stops(const MeasuredLight& light) {
 
 /// Whether a model's picture would be burnt or black as it is.
 bool calls_for_exposure(const MeasuredLight& light) {
-  constexpr double kBurnt = 4.0, kDark = 0.05;
-  return light.any() && light.brightest() > 0.0 && (light.quantile(0.5) > kBurnt || light.brightest() < kDark);
+  constexpr double kBurnt = 3.0, kDark = 0.05;
+  return light.bright() > 0.0 && (light.quantile(0.75) > kBurnt || light.bright() < kDark);
 }
 
-void choose_exposure(const Pipeline& pipeline, ChosenLooks chosen, Scene& scene, Looks& looks) {
+void choose_exposure(const Pipeline& pipeline, ChosenLooks chosen, LightMeter& meter, Scene& scene, Looks& looks) {
   const bool asked = looks.exposure && !stops_of(*looks.exposure), floats = is_float(pipeline);
-  if (!asked && (looks.exposure || looks.tone_map || chosen == ChosenLooks::never || !floats)) return;
-  const MeasuredLight light = measured(pipeline, scene);
+  const bool has_ours_alone = scene.lights_of_ours && scene.lights.size() == kLightsOfOurs;  // which fit a screen
+  const bool may_choose = chosen == ChosenLooks::by_scene && !looks.exposure && !looks.tone_map && floats;
+  if (!asked && (!may_choose || has_ours_alone)) return;
+  const MeasuredLight light = meter.measure();
   const FpScope fp;
   if (!asked && !calls_for_exposure(light)) return;
   looks.exposure = json_number(automatic_stops(light));
@@ -311,9 +343,11 @@ void set_samples(const Looks& looks, Pipeline& pipeline) {
     post.output = Format::rgba8, post.encode = target.srgb ? PostChain::Encode::srgb : PostChain::Encode::linear;
 }
 
-Looks bring_to_looks(const PipelineOptions& options, const Pipeline& pipeline, ChosenLooks chosen, Scene& scene) {
+Looks bring_to_looks(const PipelineOptions& options, const Pipeline& pipeline, ChosenLooks chosen, Scene& scene,
+                     const ClusteredScene* stored) {
   Looks looks = options.looks;
-  const bool takes_choices = scene.is_model && !options.preset && !options.pipeline_file;
+  const bool is_lit = pipeline.view == ImageView::lit;
+  const bool takes_choices = scene.is_model && is_lit && !options.preset && !options.pipeline_file;
   if (takes_choices && chosen == ChosenLooks::never) {  // say so, for commands that would choose
     if (!looks.lights) looks.lights = "keep";
     if (!looks.exposure) looks.exposure = "0";
@@ -325,9 +359,10 @@ Looks bring_to_looks(const PipelineOptions& options, const Pipeline& pipeline, C
                 "the image's format " + std::string(info(image_format(pipeline)).name) +
                     " holds no light above 1 that could be rolled off",
                 "add --target rgba16f");
-  if (!looks.lights && chosen == ChosenLooks::by_scene) looks.lights = missing_lights(pipeline, scene);
-  if (looks.lights) change_lights(*looks.lights, pipeline, scene);
-  choose_exposure(pipeline, chosen, scene, looks);
+  LightMeter meter(pipeline, stored, scene);
+  if (!looks.lights && chosen == ChosenLooks::by_scene) looks.lights = missing_lights(meter, scene);
+  if (looks.lights) change_lights(*looks.lights, meter, scene);
+  choose_exposure(pipeline, chosen, meter, scene, looks);
   choose_background(pipeline, chosen, scene, looks);
   return looks;
 }

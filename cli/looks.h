@@ -10,6 +10,8 @@
 // and the metadata of pictures share (docs/looks.md).
 namespace trueshade {
 
+struct ClusteredScene;
+
 inline constexpr std::string_view kLightChoices[] = {"keep", "soft", "add", "three", "none"};
 
 /// The rows of all of them, under a heading of their own.
@@ -29,8 +31,9 @@ enum class ChosenLooks : uint8_t { by_scene, never };
 /// option names, are chosen: lights where the file's own leave its surfaces black, exposure where they would be burnt
 /// or black, and an opaque background. Says in Scene::notes what was chosen. Lights of ours are not yet fitted to the
 /// pipeline. Draws small pictures to measure what the lights do, before set_time(). Error(usage): a tone curve of a
-/// target that cuts light off.
-Looks bring_to_looks(const PipelineOptions& options, const Pipeline& pipeline, ChosenLooks chosen, Scene& scene);
+/// target that cuts light off. `stored`: of a scene in a cache file, which is checked before it is measured.
+Looks bring_to_looks(const PipelineOptions& options, const Pipeline& pipeline, ChosenLooks chosen, Scene& scene,
+                     const ClusteredScene* stored = nullptr);
 
 /// Of looks with nothing left to choose; what does nothing where they have no exposure.
 DisplayTransform display_of(const Looks& looks);
