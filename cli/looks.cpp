@@ -188,6 +188,9 @@ double beside(const MeasuredLight& light) {
   return there > 0.0 ? std::min(there, 1e12) : 1.0;
 }
 
+/// These fit a screen.
+bool has_ours_alone(const Scene& scene) { return scene.lights_of_ours && scene.lights.size() == kLightsOfOurs; }
+
 void remove_lights(Scene& scene) {
   scene.lights.clear();
   scene.lights_of_ours = false;
@@ -198,7 +201,6 @@ void remove_lights(Scene& scene) {
 
 /// Lights of ours behind those of the file, `factor` times as bright. The background stays.
 void append_lights_of_ours(Scene& scene, double factor) {
-  if (scene.lights_of_ours) return;
   const glm::vec4 clear = scene.clear;
   const size_t before = scene.lights.size();
   add_lights_of_ours(scene);
@@ -208,7 +210,6 @@ void append_lights_of_ours(Scene& scene, double factor) {
 }
 
 void append_soft_light(Scene& scene, double factor) {
-  if (scene.lights_of_ours) return;
   Scene ours;  // its last light
   add_lights_of_ours(ours);
   ours.lights.back().color = glm::vec3(glm::dvec3(ours.lights.back().color) * factor);
@@ -216,6 +217,7 @@ void append_soft_light(Scene& scene, double factor) {
 }
 
 void change_lights(const std::string& choice, LightMeter& meter, Scene& scene) {
+  if (has_ours_alone(scene) && choice != "none") return;
   if (choice == "none" || choice == "three") remove_lights(scene);
   if (choice != "keep" && choice != "none") meter.check_stored();
   if (choice == "three") append_lights_of_ours(scene, 1.0);
@@ -262,9 +264,8 @@ bool calls_for_exposure(const MeasuredLight& light) {
 
 void choose_exposure(const Pipeline& pipeline, ChosenLooks chosen, LightMeter& meter, Scene& scene, Looks& looks) {
   const bool asked = looks.exposure && !stops_of(*looks.exposure), floats = is_float(pipeline);
-  const bool has_ours_alone = scene.lights_of_ours && scene.lights.size() == kLightsOfOurs;  // which fit a screen
   const bool may_choose = chosen == ChosenLooks::by_scene && !looks.exposure && !looks.tone_map && floats;
-  if (!asked && (!may_choose || has_ours_alone)) return;
+  if (!asked && (!may_choose || has_ours_alone(scene))) return;
   const MeasuredLight light = meter.measure();
   const FpScope fp;
   if (!asked && !calls_for_exposure(light)) return;
@@ -292,6 +293,7 @@ void choose_background(const Pipeline& pipeline, ChosenLooks chosen, Scene& scen
   const bool shown_otherwise = display_of(looks) != DisplayTransform();
   const bool is_ours = scene.photometric && (scene.clear.a == 0.0f || (scene.lights_of_ours && shown_otherwise));
   if (!looks.background && (chosen == ChosenLooks::never || !is_ours)) return;
+  if (looks.background) remove_ground(scene);
   const Background asked =
       looks.background ? background_of(*looks.background) : Background{glm::dvec4(kModelBackground, 1.0), true};
   scene.clear = asked.is_shown ? clear_of_codes(asked.color, pipeline, looks) : glm::vec4(asked.color);
@@ -351,7 +353,7 @@ Looks bring_to_looks(const PipelineOptions& options, const Pipeline& pipeline, C
   if (takes_choices && chosen == ChosenLooks::never) {  // say so, for commands that would choose
     if (!looks.lights) looks.lights = "keep";
     if (!looks.exposure) looks.exposure = "0";
-    if (!looks.background) looks.background = text_of(scene.clear);
+    if (!looks.background && scene.photometric) looks.background = text_of(scene.clear);
   }
   if (!takes_choices) chosen = ChosenLooks::never;
   if (looks.tone_map && curve_of(*looks.tone_map) != ToneCurve::clip && !is_float(pipeline))

@@ -24,5 +24,7 @@ double spread_light(const Light& lamp);
 /// Nothing where nothing is drawn, or where the disc would leave the range of positions. The camera's far plane is
 /// moved behind it; the camera of camera_seeing() is above it.
 void add_ground(Scene& scene);
+/// Takes that instance away, where there is one; its mesh and its material stay.
+void remove_ground(Scene& scene);
 
 }  // namespace trueshade

@@ -209,7 +209,7 @@ TEST_CASE("A model under a sun in lux is not burnt, and says what was done and h
   CHECK(has(pictures.looks_of("sun.png"), "--tone-map filmic"));
   CHECK_FALSE(has(pictures.render("lit.gltf", {"-o", "lit.png"}).err, "filmic"));
   // The light of a sun is what --exposure auto is about, not the size of the picture.
-  pictures.render("sun.gltf", {"-q", "-o", "large.png", "--size", "240x180"});
+  CHECK(pictures.run({"render", "sun.gltf", "-q", "-o", "large.png", "--size", "240x180"}).exit_code == 0);
   CHECK(pictures.looks_of("large.png") == pictures.looks_of("sun.png"));
 }
 
@@ -220,6 +220,20 @@ TEST_CASE("A model's background is opaque, and none where a preset or a pipeline
   CHECK(corner_of(pictures.picture("lit.gltf", {"--preset", "gltf"}))[3] == 0);
   pictures.write("whole.json", R"({"version": 1, "scene": "lit.gltf"})");
   CHECK(corner_of(pictures.picture("whole.json", {}))[3] == 0);
+}
+
+TEST_CASE("A model of PLY stands on a ground, and before a background that is asked for it does not") {
+  const Pictures pictures;
+  pictures.write("model.ply",
+                 "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                 "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                 "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  const auto alpha_below = [&](const Image& image) { return image.code(30, image.height - 1, 3); };
+  CHECK(alpha_below(pictures.picture("model.ply", {})) == 255);
+  const Image cut_out = pictures.picture("model.ply", {"--background", "none"});
+  CHECK(alpha_below(cut_out) == 0);
+  CHECK(count(cut_out, 40, 255) > 100);
+  CHECK(pictures.hash("model.ply", {"--lights", "three"}) == pictures.hash("model.ply", {}));
 }
 
 TEST_CASE("--lights keeps, adds, replaces and removes lights") {
