@@ -130,7 +130,7 @@ long double decoded(long double code) {
 
 }  // namespace
 
-TEST_CASE("--samples draws what post.samples of a pipeline draws, with an output that fits the target") {
+TEST_CASE("The option --samples draws what post.samples of a pipeline draws, with an output that fits the target") {
   const Pictures pictures;
   pictures.write("codes.json", R"({"post": {"samples": 2, "output": "rgba8"}})");
   pictures.write("floats.json", R"({"target": "rgba16f", "post": {"samples": 3, "output": "rgba16f"}})");
@@ -169,7 +169,7 @@ TEST_CASE("A background is the colour that a PNG shows, whatever the target, the
   for (int c = 0; c < 4; ++c) CHECK(floats.value(0, 0, c) == std::array{0.5, 2.0, 0.25, 0.75}[size_t(c)]);
 }
 
-TEST_CASE("--exposure multiplies the light of a PNG, and leaves an EXR as it is") {
+TEST_CASE("The option --exposure multiplies the light of a PNG, and leaves an EXR as it is") {
   const Pictures pictures;
   const std::vector<std::string> floats{"--target", "rgba32f", "--lights", "keep"};
   const auto with = [&](std::vector<std::string> more) {
@@ -236,7 +236,7 @@ TEST_CASE("A model of PLY stands on a ground, and before a background that is as
   CHECK(pictures.hash("model.ply", {"--lights", "three"}) == pictures.hash("model.ply", {}));
 }
 
-TEST_CASE("--lights keeps, adds, replaces and removes lights") {
+TEST_CASE("The option --lights keeps, adds, replaces and removes lights") {
   const Pictures pictures;
   const auto lights = [&](const std::string& scene, const std::string& choice) {
     return json::parse(pictures.render(scene, {"--json", "-q", "--lights", choice}).out)["scene"]["lights"].get<int>();
