@@ -1,5 +1,6 @@
 // The tables of commands that draw: render, shade, explain, view.
 #include "cli/command_tables.h"
+#include "cli/looks.h"
 #include "cli/option_values.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
@@ -139,6 +140,7 @@ CommandTable render_table(RenderOptions& options, RenderTexts& texts) {
   add_strategy(table, texts.strategy);
   add_profile(table, texts.profile);
   add_choice(table, "--view", "NAME", texts.view, "Show this instead of the lit picture:", kViewNames);
+  add_looks(table, options.looks);
   add_render_execution(table, options, texts);
   add_sharing(table, options.sharing, texts.lost_after);
   add_limits(table, options.limits);
@@ -204,6 +206,7 @@ CommandTable explain_table(ExplainOptions& options, ExplainTexts& texts) {
   add_target(table, texts.target);
   add_strategy(table, texts.strategy);
   add_profile(table, texts.profile);
+  add_looks(table, options.looks);
   add_limits(table, options.limits);
   table.details = "The last line is the stored pixel, as render stores it.";
   table.examples = {{"trueshade explain scene.json --pixel 160,120", "Everything behind one pixel's value."}};
@@ -230,6 +233,7 @@ CommandTable view_table(ViewOptions& options, ViewTexts& texts) {
   add_profile(table, texts.profile);
   add_choice(table, "--view", "NAME", texts.view, "Show this instead of the lit picture:", kViewNames).group =
       "Pipeline";
+  add_looks(table, options.looks);
   add_value(table, "--threads", "COUNT", texts.threads, kThreadsHelp).group = "Execution";
   add_limits(table, options.limits);
   table.details =

@@ -12,6 +12,7 @@
 #include "cli/capture/plane_images.h"
 #include "cli/capture/stored_planes.h"
 #include "cli/commands.h"
+#include "cli/looks.h"
 #include "cli/notes.h"
 #include "cli/preparation.h"
 #include "cli/progress_bar.h"
@@ -187,11 +188,12 @@ Account against_account(const Question& q, const PixelHistory& history) {
 void explain(const ExplainOptions& options) {
   check_pipeline(options);
   Scene scene = scene_of_options(options.scene, options.limits);
-  set_time(scene, options.time);
   Pipeline pipeline = pipeline_of(options, scene);
   const bool other_view = pipeline.view != ImageView::lit;
   pipeline.view = ImageView::lit;
+  bring_to_looks(options, pipeline, ChosenLooks::by_scene, scene);
   fit_lights_of_ours(scene, pipeline);
+  set_time(scene, options.time);
   if (options.x >= pipeline.width || options.y >= pipeline.height)
     throw Error(ErrorKind::usage, "--pixel",
                 std::to_string(options.x) + ',' + std::to_string(options.y) + " is not in the picture, which is " +

@@ -53,6 +53,7 @@ Metadata metadata_of(const RenderedFrame& result) {
                        {"trueshade:scene", result.scene.spec},
                        {"trueshade:sceneHash", "sha256:" + result.scene_hash}};
   if (!result.cube_map.empty()) metadata.emplace_back("trueshade:cubeMap", result.cube_map);
+  if (!result.looks.empty()) metadata.emplace_back("trueshade:looks", result.looks.substr(1));
   if (!result.execution.region.whole()) metadata.emplace_back("trueshade:region", region_text(result.execution.region));
   const bool is_read = !result.scene.timeline.empty() || result.pipeline.light_program.used();  // the time
   if (is_read) metadata.emplace_back("trueshade:time", json_number(result.time));
@@ -143,6 +144,7 @@ std::string json_of(const RenderedFrame& result, std::span<const std::string> fi
       .put_raw("stats", stats.text());
   json.put("hash", "sha256:" + result.image_hash);
   if (!result.cube_map.empty()) json.put("cube_map", result.cube_map);
+  if (!result.looks.empty()) json.put("looks", result.looks.substr(1));
   if (!result.execution.region.whole()) json.put("region", region_text(result.execution.region));
   json.put_raw("aovs", aovs.text()).put_raw("files", paths.text());
   json.put_raw("ignored", ignored_json(result.notes)).put_raw("notes", lines_json(result.notes));

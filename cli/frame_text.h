@@ -25,6 +25,7 @@ struct RenderedFrame {
   std::string explain_command{};  ///< that says all of a pixel {x},{y}; or empty
   std::vector<std::string> aov_hashes{};  ///< of each aov, 64 hex digits, where their images have no texels
   std::string cube_map{};         ///< `X,Y,Z px`, place and face, or `X,Y,Z cross`; empty: the camera's picture
+  std::string looks{};            ///< looks_text() of what the scene was brought to
   double start_ms = 0.0;          ///< of the frame, since the process was started
 };
 

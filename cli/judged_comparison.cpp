@@ -6,11 +6,13 @@
 
 #include "cli/capture/captured_planes.h"
 #include "cli/capture/stored_planes.h"
+#include "cli/looks.h"
 #include "cli/named_file.h"
 #include "cli/preparation.h"
 #include "cli/shaded_gbuffer.h"
 #include "cli/shell_words.h"
 #include "core/error.h"
+#include "core/file_ending.h"
 #include "scenes/pipeline/fit_lights.h"
 #include "scenes/pipeline/light_model.h"
 #include "scenes/pipeline/presets.h"
@@ -97,6 +99,7 @@ class SceneJudge {
       throw not_judged(error.what());
     }
     validate(v_.pipeline);
+    bring_to_reference_looks();
     fit_lights_of_ours(scene_, v_.pipeline);
     if ("sha256:" + scene_hash(scene_) != *hash)
       throw not_judged(scene_.spec + " is another scene today: its hash is not the one that the reference names");
@@ -108,6 +111,21 @@ class SceneJudge {
     v_.pipeline = with_planes_of_program(v_.pipeline);
     constexpr uint64_t kPixel = 480;  // bytes, as of validate
     check_memory(scene_, v_.pipeline, {}, {}, uint64_t(v_.pipeline.width) * uint64_t(v_.pipeline.height) * kPixel);
+  }
+
+  /// A picture without the key has the scene as its file has it.
+  void bring_to_reference_looks() {
+    const std::string* const text = metadata_value(pictures_.reference, "trueshade:looks");
+    if (text == nullptr) return;
+    PipelineOptions options;
+    try {
+      options.looks = looks_of_text(*text);
+      bring_to_looks(options, v_.pipeline, ChosenLooks::never, scene_);
+    } catch (const Error&) {
+      throw not_judged("its looks are none that this version knows");
+    }
+    if (display_of(options.looks) != DisplayTransform() && !has_ending(pictures_.reference.path, ".exr"))
+      throw not_judged("its values are not the target's: --exposure or --tone-map has changed them");
   }
 
   void find_capture() {

@@ -1,6 +1,7 @@
 // The tables of commands that judge and measure: validate, compare, bench.
 #include "cli/command_tables.h"
 #include "cli/commands.h"
+#include "cli/looks.h"
 #include "cli/mask_options.h"
 #include "cli/option_values.h"
 #include "judge/bounds/profile_names.h"
@@ -91,6 +92,7 @@ CommandTable validate_table(ValidationOptions& options, ValidationTexts& texts) 
   add_layers(table, options);
   add_light_program(table, options);
   add_strategy(table, texts.strategy);
+  add_looks(table, options.looks);
   add_limits(table, options.limits);
   table.details =
       "Exit codes: 0 every pixel is explained, 1 a pixel is in no legal set or no rounding that is known makes such an "

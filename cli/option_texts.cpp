@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cli/frame_name.h"
+#include "cli/looks.h"
 #include "cli/mask_options.h"
 #include "cli/option_values.h"
 #include "cli/picture_output.h"
@@ -97,6 +98,7 @@ void check_named_once(const std::string& option, std::vector<std::string> files)
 }
 
 RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
+  check_looks(options.looks);
   if (!options.raw_video)
     for (std::string& path : options.outputs) path = output_with_ending(path);
   if (texts.size) options.size = size_from_text(*texts.size, kMostPictureSide);
@@ -197,6 +199,7 @@ ProbeOptions finished(ProbeOptions options) {
 }
 
 ValidationOptions finished(ValidationOptions options, const ValidationTexts& texts) {
+  check_looks(options.looks);
   options.mask = mask_rules_of(texts.mask);
   if (texts.size) options.size = size_from_text(*texts.size);
   if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
@@ -248,6 +251,7 @@ ShadeOptions finished(ShadeOptions options, const ShadeTexts& texts) {
 }
 
 ExplainOptions finished(ExplainOptions options, const ExplainTexts& texts) {
+  check_looks(options.looks);
   if (texts.size) options.size = size_from_text(*texts.size);
   if (texts.time) options.time = time_from_text(*texts.time);
   if (texts.target) options.target = target_from_text("--target", *texts.target);
@@ -288,6 +292,7 @@ BenchOptions finished(BenchOptions options, const BenchTexts& texts) {
 }
 
 ViewOptions finished(ViewOptions options, const ViewTexts& texts) {
+  check_looks(options.looks);
   if (texts.size) options.size = size_from_text(*texts.size);
   if (texts.time) options.time = time_from_text(*texts.time);
   if (texts.target) options.target = target_from_text("--target", *texts.target);

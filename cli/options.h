@@ -43,6 +43,11 @@ struct CaptureOptions {
   bool given() const { return !gbuffer_files.empty() || map.has_value(); }
 };
 
+/// How a picture is to look, as texts of options (cli/looks.h). What is absent is not asked for.
+struct Looks {
+  std::optional<std::string> samples, background, lights, exposure, tone_map;
+};
+
 /// What is drawn. What is absent keeps the value of the layer below: preset, scene file, pipeline file.
 struct PipelineOptions : LimitedOptions {
   std::string scene;                  ///< a file or builtin:NAME
@@ -56,6 +61,7 @@ struct PipelineOptions : LimitedOptions {
   std::optional<NumericProfile> profile;
   std::optional<Strategy> strategy;
   std::optional<ImageView> view;
+  Looks looks;
   std::string command_line;  ///< as it was given, for a shell: all after `trueshade`, with a space before each word
 };
 

@@ -124,12 +124,11 @@ std::string clamp_note(const Pipeline& pipeline, const Image& picture, bool to_p
   const std::string share = std::to_string(clamped) + " of " + std::to_string(pixels) + " pixels have a channel ";
   if (floats)
     return share +
-           "above 1, the largest value of a PNG: Brighter light is cut off there (an EXR keeps it, and a tone_map of "
-           "the "
-           "post chain brings it into range)";
+           "above 1, the largest value of a PNG: Brighter light is cut off there (an EXR keeps it, and --exposure auto "
+           "brings it into range)";
   return share + "at 1, the largest value of " + std::string(layout.name) +
-         ": Brighter light is cut off there (--target rgba16f keeps it, and a tone_map of the "
-         "post chain brings it into range)";
+         ": Brighter light is cut off there (--target rgba16f keeps it, and --exposure auto "
+         "brings it into range)";
 }
 
 /// How many pixels are no numbers, which a picture does not show: a PNG has 0 for NaN.

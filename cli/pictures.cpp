@@ -8,6 +8,7 @@
 #include "cli/frame_name.h"
 #include "cli/frame_text.h"
 #include "cli/json_text.h"
+#include "cli/looks.h"
 #include "cli/notes.h"
 #include "cli/picture_encoding.h"
 #include "cli/picture_notes.h"
@@ -90,6 +91,7 @@ void make_files(const RenderOptions& options, const std::vector<std::string>& pa
 RenderedFrame frame_at(const RenderOptions& options, const Scene& scene, const Pipeline& pipeline, double time) {
   RenderedFrame result{scene, pipeline, execution_of(options), time, {}, {}, {}, {}};
   result.notes = notes_of(scene, pipeline);
+  result.looks = looks_text(options.looks);
   if (!options.command_line.empty()) result.command = "trueshade" + options.command_line;
   // Not of a view, which shows planes, and not where there is no scene by that name to explain.
   if (!options.scene.empty() && pipeline.view == ImageView::lit)
@@ -123,8 +125,9 @@ void hand_out_streamed(const RenderOptions& options, const std::vector<std::stri
 /// Makes the files of a frame that is drawn, and the texts that were asked for.
 void hand_out(const RenderOptions& options, const std::vector<std::string>& paths, RenderedFrame& result,
               PictureSink& sink) {
+  const bool as_it_is = display_of(options.looks) == DisplayTransform();
   const bool to_png =
-      std::any_of(paths.begin(), paths.end(), [](const auto& path) { return has_ending(path, ".png"); });
+      as_it_is && std::any_of(paths.begin(), paths.end(), [](const auto& path) { return has_ending(path, ".png"); });
   if (result.cube_map.empty())  // a face may well show nothing
     for (std::string& note : picture_notes(result.scene, result.pipeline, result.frame, to_png))
       result.notes.lines.push_back(std::move(note));

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "cli/looks.h"
 #include "core/file_ending.h"
 #include "core/image_files/image_io.h"
 #include "core/memory_cap.h"
@@ -143,6 +144,7 @@ Pipeline pipeline_of(const PipelineOptions& options, const Scene& scene) {
   if (options.strategy) pipeline.strategy = *options.strategy;
   if (options.view) pipeline.view = *options.view;
   set_light_program(options, pipeline.light_program);
+  set_samples(options.looks, pipeline);
   validate(pipeline);
   require_pixels(pipeline.width, pipeline.height, options.scene);
   return pipeline;

@@ -2,6 +2,7 @@
 
 #include "cli/activity.h"
 #include "cli/commands.h"
+#include "cli/looks.h"
 #include "cli/picture_output.h"
 #include "cli/pictures.h"
 #include "cli/preparation.h"
@@ -56,15 +57,17 @@ void check_outputs(const RenderOptions& options, const MpiStart& start) {
 
 }  // namespace
 
-SceneToRender::SceneToRender(const RenderOptions& options, const Execution& execution)
-    : cached(cached_scene_of_options(options.scene, options.limits)),
+SceneToRender::SceneToRender(const RenderOptions& given, const Execution& execution)
+    : cached(cached_scene_of_options(given.scene, given.limits)),
       scene(cached.scene),
-      pipeline(pipeline_of(options, scene)) {
+      pipeline(pipeline_of(given, scene)),
+      options(given) {
   check_cube_map(options, pipeline);
   validate_region(pipeline, options.execution.region);
   if (options.resume && (!is_streamed(options, pipeline) || options.outputs.empty() || options.frames))
     throw Error(ErrorKind::usage, "--resume", "one large picture that goes into files can be gone on with",
                 "leave it out: a picture over 16384 pixels a side, or of more than 67108864, is large");
+  options.looks = bring_to_looks(options, pipeline, ChosenLooks::by_scene, scene, cached.clusters.get());
   fit_lights_of_ours(scene, pipeline);
   if (is_streamed(options, pipeline)) return;  // its bands are as high as memory allows
   validate_drawn_size(pipeline, options.execution.region);
@@ -91,7 +94,7 @@ void render(const RenderOptions& options) {
     SceneToRender of(options, execution_of(options));
     for (const std::string& path : options.outputs)
       if (!is_standard_output(path)) make_folder_of(path);
-    Pictures pictures(options, of.cached, of.pipeline, execution_of(options));
+    Pictures pictures(of.options, of.cached, of.pipeline, execution_of(options));
     if (options.frames)
       render_frames(options, pictures, sink);
     else

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "cli/looks.h"
 #include "cli/notes.h"
 #include "cli/option_values.h"
 #include "cli/terminal.h"
@@ -33,6 +34,7 @@ std::string outputs_text(const RenderOptions& options) {
     if (is_on) text += name;
   if (!options.aovs.empty()) text += " --aov " + joined(options.aovs);
   if (options.encode) text += " --encode " + std::to_string(int(*options.encode));
+  text += looks_text(options.looks);
   if (!options.cube_map) return text;
   text += options.cube_map->cross ? " --cube-cross" : " --cube-map";
   if (const auto& eye = options.cube_map->eye)
@@ -126,8 +128,8 @@ void SharedRender::load() {
   const Pipeline& pipeline = of_->pipeline;
   const PictureRegion drawn = drawn_region(pipeline, options_.execution.region);
   if (execution_.tile == 0) execution_.tile = tile_for(drawn.width, drawn.height, options_.execution.threads);
-  pictures_.emplace(options_, of_->cached, pipeline, execution_);
-  identity_ = identity_of(options_, *of_);
+  pictures_.emplace(of_->options, of_->cached, pipeline, execution_);
+  identity_ = identity_of(of_->options, *of_);
   if (leads_) activity_.emplace("rendering", Activity::Counts::by_hand);
 }
 

@@ -1,6 +1,7 @@
 #include "cli/shell_words.h"
 
 #include "cli/json_text.h"
+#include "cli/looks.h"
 
 namespace trueshade {
 
@@ -21,6 +22,8 @@ std::string explain_command(const PipelineOptions& options, const Pipeline& pipe
   if (options.strategy) command += " --strategy " + std::string(name_of(*options.strategy));
   if (options.target) command += " --target " + std::string(info(*options.target).name);
   if (options.profile) command += " --profile " + std::string(profile_name(*options.profile));
+  if (options.looks.samples) command += " --samples " + *options.looks.samples;
+  command += looks_text(options.looks);
   if (time != 0) command += " --time " + json_number(time);
   command += " --pixel {x},{y}";
   if (!against.empty()) command += " --against " + for_shell(against);

@@ -13,6 +13,7 @@
 #include "cli/commands.h"
 #include "cli/driver_capture.h"
 #include "cli/judged_mask.h"
+#include "cli/looks.h"
 #include "cli/option_values.h"
 #include "cli/preparation.h"
 #include "cli/shell_words.h"
@@ -148,9 +149,11 @@ bool judge_opengl(const ValidationOptions& options) {
   if (options.capture.given()) files = capture_files_of(options.capture, options.limits);
   activity->now("reading the scene");
   Scene scene = scene_of_options(options.scene, options.limits);
-  set_time(scene, options.time);
   const Pipeline asked = pipeline_of(options, scene);
+  // An engine's picture has the lights and the background of the file.
+  const Looks looks = bring_to_looks(options, asked, files ? ChosenLooks::never : ChosenLooks::by_scene, scene);
   fit_lights_of_ours(scene, asked);
+  set_time(scene, options.time);
   v.pipeline = with_planes_of_program(asked);
   if (files && !options.size) v.pipeline.width = files->width(), v.pipeline.height = files->height();
   check_memory(scene, v.pipeline, {}, {}, judging_memory(options, v.pipeline));
@@ -200,7 +203,9 @@ bool judge_opengl(const ValidationOptions& options) {
     v.command = "trueshade" + options.command_line;
     v.reference = reference_of(scene, v);
     const std::string against = !options.saved.empty() ? options.saved.front() : picture_of(options.capture);
-    v.explain_command = explain_command(options, v.pipeline, options.time, against);
+    ValidationOptions as_drawn = options;
+    as_drawn.looks = looks;
+    v.explain_command = explain_command(as_drawn, v.pipeline, options.time, against);
     const std::string page = validation_page(v, scene);
     write_text(*options.report, page);
   }

@@ -116,9 +116,9 @@ void each_member(auto& visit, Same<Timeline> auto& value) {
 /// All but the meshes, which are stored first, one by one, and the digests, which the file's maker stores.
 void each_member(auto& visit, Same<Scene> auto& value) {
   auto& [spec, meshes, materials, textures, instances, lights, camera, clear, pipeline_text, timeline, time,
-         photometric, lights_of_ours, digests, notes] = value;
+         photometric, lights_of_ours, is_model, digests, notes] = value;
   each_of(visit, spec, materials, textures, instances, lights, camera, clear, pipeline_text, timeline, time,
-          photometric, lights_of_ours, notes);
+          photometric, lights_of_ours, is_model, notes);
 }
 
 void each_member(auto& visit, Same<FileState> auto& value) {

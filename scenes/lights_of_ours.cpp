@@ -19,6 +19,7 @@ constexpr double kFalloffThere = 0.6;                // how a lamp's attenuation
 constexpr double kPhotometricShare = 0.4;            // of the squared distance: a lamp's intensity where light spreads
 constexpr double kMostIntensity = 1e17;
 
+constexpr const char* kGround = "ground";  // of its mesh and its material
 constexpr double kGroundReflectance = 0.34;
 constexpr glm::dvec3 kSoftLight(0.17, 0.18, 0.2);
 
@@ -115,6 +116,7 @@ double spread_light(const Light& lamp) {
 
 void add_lights_of_ours(Scene& scene) {
   const FpScope fp;
+  if (scene.lights_of_ours) return;
   const Bounds bounds = bounds_of(scene);
   const double gain = gain_of(scene);
   add_lamp(scene, bounds, {-0.8, 1.0, 0.9}, glm::dvec3(1.45, 1.36, 1.2) * gain);
@@ -138,7 +140,7 @@ void add_ground(Scene& scene) {
                     std::fabs(height) < kMost;
   if (scene.triangle_count() == 0 || !fits) return;
   Mesh disc;
-  disc.name = "ground";
+  disc.name = kGround;
   const glm::dvec3 up(0.0, 1.0, 0.0), centre(bounds.centre.x, height, bounds.centre.z);
   add_vertex(disc, centre, up);
   for (int i = 0; i < kSides; ++i) {
@@ -155,8 +157,14 @@ void add_ground(Scene& scene) {
   instance.mesh = uint32_t(scene.meshes.size());
   instance.material = uint32_t(scene.materials.size());
   scene.meshes.push_back(std::move(disc));
-  scene.materials.push_back({"ground", {grey, grey, grey, 1.0f}});
+  scene.materials.push_back({kGround, {grey, grey, grey, 1.0f}});
   scene.instances.push_back(instance);
+}
+
+void remove_ground(Scene& scene) {
+  const bool is_last = !scene.instances.empty() && scene.instances.back().mesh + 1 == scene.meshes.size();
+  if (scene.is_model && !scene.photometric && is_last && scene.meshes.back().name == kGround)
+    scene.instances.pop_back();
 }
 
 }  // namespace trueshade

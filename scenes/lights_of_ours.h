@@ -7,11 +7,13 @@ namespace trueshade {
 /// means of vertices' colours and of colour maps (the smallest level of a whole chain), each instance by its triangles.
 double mean_reflectance(const Scene& scene);
 
-/// Lights a scene whose file has none, as a photographer lights an object: a warm key light from the upper left, a cool
-/// fill light from the right, a light from behind, and faint ambient light, over a dark background. Dark surfaces
-/// get more light, up to 5 times as much as grey ones but none that would cut a bright surface off at 1, and white ones
-/// less. In a photometric scene the lights are as
-/// bright at their distance as in others.
+inline constexpr size_t kLightsOfOurs = 4;  ///< that add_lights_of_ours() appends, the last of them ambient
+
+/// Appends lights of ours to those of a scene, as a photographer lights an object: a warm key light from the upper
+/// left, a cool fill light from the right, a light from behind, and faint ambient light, over a dark background. Dark
+/// surfaces get more light, up to 5 times as much as grey ones but none that would cut a bright surface off at 1, and
+/// white ones less. In a photometric scene the lights are as bright at their distance as in others. None where the
+/// scene has them already.
 void add_lights_of_ours(Scene& scene);
 
 /// How many times as much light one of these lamps gives in a photometric scene as in others; 1 for ambient light.
@@ -22,5 +24,7 @@ double spread_light(const Light& lamp);
 /// Nothing where nothing is drawn, or where the disc would leave the range of positions. The camera's far plane is
 /// moved behind it; the camera of camera_seeing() is above it.
 void add_ground(Scene& scene);
+/// Takes that instance away, where there is one; its mesh and its material stay.
+void remove_ground(Scene& scene);
 
 }  // namespace trueshade

@@ -101,7 +101,8 @@ struct Scene {
   /// Lights are in candela and lux, and materials of glTF's model: without a preset the pipeline is that of
   /// default_pipeline() in scenes/pipeline/presets.h.
   bool photometric = false;
-  bool lights_of_ours = false;       ///< the file has no lights: lights of ours stand in
+  bool lights_of_ours = false;       ///< the last kLightsOfOurs lights are ours (scenes/lights_of_ours.h)
+  bool is_model = false;             ///< a model file of others: what it lacks may be chosen so that it looks well
   std::shared_ptr<const SceneDigests> digests{};  ///< null unless meshes and textures lie in a cache file (scene_cache/)
   std::vector<std::string> notes{};  ///< what of its file the scene leaves out, a full sentence without full stop each
 

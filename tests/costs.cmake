@@ -12,6 +12,7 @@ trueshade_slow(40
   "judge:Wrong renderers are rejected wherever they leave the legal sets"
   "diagnosis:A name that leaves pixels far off is but a part, although it explains most of them")
 trueshade_slow(20
+  "cli:What a picture looks like is in its file, and compare draws it again by it"
   "cli:what OpenGL draws here is explained, pixel by pixel"
   "gl:llvmpipe encodes every float from 0 to 1 as the sRGB code of the profile"
   "judge:A gain, a level or a scale of all lookups is convicted though each of them is legal"

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "core/fp_env.h"
+#include "core/image_files/png_codes.h"
 #include "core/image_rows.h"
 #include "core/srgb_codes.h"
 #include "core/threads/parallel_for.h"
@@ -14,7 +15,8 @@ namespace {
 
 constexpr int kMostTableBits = 16;
 
-uint8_t code_of(float value, bool is_linear) {
+uint8_t code_of(float value, bool is_linear, const DisplayTransform& display) {
+  if (display != DisplayTransform()) value = float(shown_light(double(value), display));
   if (is_linear) return srgb8_code_of(value);
   return uint8_t(std::nearbyint(255.0f * (value > 0.0f ? std::min(value, 1.0f) : 0.0f)));  // NaN is 0
 }
@@ -47,26 +49,29 @@ bool holds_linear_light(const FormatInfo& layout, PictureValues values) {
 
 }  // namespace
 
-void DisplayCodes::make_table(Format format, PictureValues values) {
-  if (!of_code_.empty() && format == format_ && values == values_) return;
+void DisplayCodes::make_table(Format format, PictureValues values, const DisplayTransform& display) {
+  if (!of_code_.empty() && format == format_ && values == values_ && display == display_) return;
   const FpScope fp;
   const FormatInfo layout = info(format);
-  format_ = format, values_ = values;
+  format_ = format, values_ = values, display_ = display;
   of_code_.resize(size_t(1) << layout.bits[0]);
   const uint32_t largest = uint32_t(of_code_.size() - 1);
   for (uint32_t code = 0; code < of_code_.size(); ++code) {
-    if (layout.number_class == NumberClass::unorm)
+    const bool linear = holds_linear_light(layout, values) || (layout.srgb && display != DisplayTransform());
+    if (layout.number_class == NumberClass::unorm && display == DisplayTransform())
       of_code_[code] = uint8_t((code * 255 + largest / 2) / largest);
     else
-      of_code_[code] = code_of(float(value_of_code(layout, 0, code)), holds_linear_light(layout, values));
+      of_code_[code] = code_of(float(value_of_code(layout, 0, code)), linear, display);
   }
 }
 
-void DisplayCodes::convert(const Image& image, PictureValues values, std::vector<uint32_t>& out) {
+void DisplayCodes::convert(const Image& image, PictureValues values, const DisplayTransform& asked,
+                           std::vector<uint32_t>& out) {
   const FormatInfo layout = info(image.format);
+  const DisplayTransform display = values == PictureValues::of_target ? asked : DisplayTransform();
   const bool by_table = has_one_table(layout), linear = holds_linear_light(layout, values);
-  if (holds_display_codes(image)) return out.clear();
-  if (by_table) make_table(image.format, values);
+  if (holds_display_codes(image) && display == DisplayTransform()) return out.clear();
+  if (by_table) make_table(image.format, values, display);
   out.resize(size_t(image.width) * size_t(image.height));
   const int bands = (image.height + kRowsOfBand - 1) / kRowsOfBand;
   parallel_for(bands, 0, [&](int band) {
@@ -78,7 +83,8 @@ void DisplayCodes::convert(const Image& image, PictureValues values, std::vector
       for (int x = 0; x < image.width; ++x) {
         uint8_t rgb[3];
         for (int c = 0; c < 3; ++c)
-          rgb[c] = by_table ? of_code_[image.code(layout, x, y, c)] : code_of(row[3 * size_t(x) + size_t(c)], linear);
+          rgb[c] = by_table ? of_code_[image.code(layout, x, y, c)]
+                            : code_of(row[3 * size_t(x) + size_t(c)], linear, display);
         words[x] = word_of(rgb);
       }
     }

@@ -12,15 +12,16 @@ namespace trueshade::viewer {
 class DisplayCodes {
  public:
   /// Words 0x00RRGGBB, rows top first. `values`: what the picture's numbers stand for. Needs a format with R, G and B.
-  /// None for a picture that holds its codes (holds_display_codes()).
-  void convert(const Image& image, PictureValues values, std::vector<uint32_t>& out);
+  /// None for a picture that holds its codes (holds_display_codes()), where `display` does nothing.
+  void convert(const Image& image, PictureValues values, const DisplayTransform& display, std::vector<uint32_t>& out);
 
  private:
-  void make_table(Format format, PictureValues values);
+  void make_table(Format format, PictureValues values, const DisplayTransform& display);
 
   std::vector<uint8_t> of_code_;  // of a channel of up to 16 bits, which R, G and B have alike
   Format format_{};
   PictureValues values_{};
+  DisplayTransform display_{};
 };
 
 /// Whether the texels are four bytes R, G, B, A, which a screen shows as they are.

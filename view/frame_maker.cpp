@@ -5,6 +5,7 @@
 #include <new>
 #include <utility>
 
+#include "cli/looks.h"
 #include "core/error.h"
 
 namespace trueshade::viewer {
@@ -138,7 +139,8 @@ void FrameMaker::draw(ViewState state) {
     picture->frame = render_frame(scene_->prepared(), picture->pipeline, execution_);
     picture->draw_ms = ms_since(start);
     const Clock::time_point drawn = Clock::now();
-    codes_.convert(picture->frame.color, values_of(picture->pipeline), picture->words);
+    codes_.convert(picture->frame.color, values_of(picture->pipeline), display_of(looks_of_text(state.looks)),
+                   picture->words);
     picture->convert_ms = ms_since(drawn);
     picture->state = std::move(state);
     const std::lock_guard lock(mutex_);

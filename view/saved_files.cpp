@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "cli/frame_text.h"
+#include "cli/looks.h"
 #include "core/image_files/image_io.h"
 #include "scenes/pipeline/shipped_models.h"
 #include "view/saved_scene.h"
@@ -23,7 +24,9 @@ std::string write_picture(const std::string& path, const std::string& name, cons
   RenderedFrame rendered{scene.scene(), picture.pipeline, {}, picture.state.time, picture.frame, {}, {}, {}};
   rendered.image_hash = image_hash(picture.frame.color);
   rendered.scene_hash = scene_hash(scene.scene());
+  rendered.looks = picture.state.looks;
   ImageFileOptions options;
+  options.display = display_of(looks_of_text(rendered.looks));
   if (picture.pipeline.view != ImageView::lit || picture.pipeline.post.encode == PostChain::Encode::srgb)
     options.values = PictureValues::display_codes;
   const std::string file = path.empty() ? named(name, rendered.image_hash, ".png") : path;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "cli/looks.h"
 #include "core/error.h"
 #include "core/fp_env.h"
 #include "core/standard_input.h"
@@ -105,6 +106,9 @@ double degrees_read_as(float radians) {
 
 std::string saved_scene(const SceneFacts& facts, const DrawnPicture& picture, const std::string& path) {
   const FpScope fp;
+  if (const Looks looks = looks_of_text(facts.looks); looks.lights && *looks.lights != "keep")
+    throw Error(ErrorKind::usage, path, "no scene file says the lights that --lights " + *looks.lights + " has made",
+                "open the scene with --lights keep");
   const SceneReference known = facts.reference ? *facts.reference : SceneReference{facts.spec, {}, {}};
   const bool stands = picture.state.time != 0.0;
   std::string text = "{\n  \"version\": 1,\n  \"scene\": " + json_text_of(way_to(known.scene, path));
@@ -115,7 +119,7 @@ std::string saved_scene(const SceneFacts& facts, const DrawnPicture& picture, co
   for (const std::vector<LightChange>* list : {&known.changes, &picture.state.changes})
     for (const LightChange& change : *list) changes += (changes.empty() ? "\n    " : ",\n    ") + text_of(change);
   if (!changes.empty()) text += ",\n  \"light_changes\": [" + changes + "\n  ]";
-  if (facts.reference) {
+  if (facts.reference || !facts.looks.empty()) {
     text += ",\n  \"clear\": [";
     for (int c = 0; c < 4; ++c) text += (c == 0 ? "" : ", ") + number_text(double(facts.clear[c]));
     text += "],\n  \"fps\": " + number_text(facts.fps);

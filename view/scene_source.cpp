@@ -65,6 +65,7 @@ OpenedScene opened_scene(const SceneSource& source, std::vector<std::string>& fi
   facts.spec = source.spec;
   facts.name = name_of_spec(source.spec);
   facts.pipeline = source.pipeline(scene);
+  if (source.bring_to_looks) facts.looks = source.bring_to_looks(scene, facts.pipeline);
   read_reference(source, facts);
   facts.files = read.paths();
   std::erase(facts.files, facts.pipeline.light_program.file);  // the window loads it by itself

@@ -20,6 +20,7 @@ struct SceneFacts {
   Pipeline pipeline;                        ///< of all layers, see pipeline_of()
   std::vector<Light> lights;                ///< at time 0
   glm::vec4 clear{0.0f};
+  std::string looks = {};  ///< what SceneSource::bring_to_looks has said
   double fps = 24.0;
   bool moves = false;
   double last_time = 0.0;  ///< seconds, when all that moves has been seen once
@@ -37,6 +38,8 @@ struct SceneSource {
   std::string spec;
   std::function<Scene()> load;
   std::function<Pipeline(const Scene&)> pipeline;
+  /// Brings the scene to the looks asked for, and says which, as looks_text() has them; may be absent.
+  std::function<std::string(Scene&, const Pipeline&)> bring_to_looks{};
   SceneLimits limits{};  ///< those that `load` holds the scene to
 };
 

@@ -29,6 +29,7 @@ Session::Session(SceneSource source, OpenedScene opened, const Execution& execut
       base_pipeline_(facts_.pipeline),
       maker_(std::move(opened.scene), execution, std::move(news)) {
   state_.pipeline = facts_.pipeline;
+  state_.looks = facts_.looks;
   watch_.watch(facts_.files);
   if (const LightProgram& program = facts_.pipeline.light_program; program.used()) {
     if (!names_shipped_model(program.file)) model_watch_.watch({model_file_ = program.file});
@@ -299,6 +300,7 @@ void Session::take_over(SceneFacts facts) {
   std::erase_if(state_.changes, [&](const LightChange& change) { return change.light >= facts.lights.size(); });
   if (desk_.selected_light && *desk_.selected_light >= facts.lights.size()) desk_.selected_light.reset();
   facts_ = std::move(facts);
+  state_.looks = facts_.looks;
   plays_ = plays_ && has_time();
   card_.reset();
   watch_.watch(facts_.files);

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "scenes/camera.h"
@@ -17,6 +18,7 @@ struct ViewState {
   std::optional<Camera> camera;      ///< nothing: the scene's own, as it moves
   double time = 0.0;                 ///< seconds
   std::vector<LightChange> changes;  ///< of lights; at most one of each
+  std::string looks = {};            ///< looks_text() of what the scene was brought to when it was loaded
 };
 
 /// The pipeline that the picture is drawn by. The exposure multiplies the colour of every light

@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <array>
 
+#include "cli/looks.h"
 #include "cli/pages/page.h"
 #include "cli/pages/viewer.h"
 #include "cli/report.h"
 #include "cli/version.h"
+#include "core/image_files/png_codes.h"
 #include "core/threads/parallel_for.h"
 #include "shading/output/derived_planes.h"
 #include "shading/output/heat_map.h"
@@ -33,6 +35,35 @@ std::string heat_ramp(uint32_t most) {
 std::string about_codes(const Image& color) {
   if (info(color.format).number_class == NumberClass::unorm) return "as stored in the target";
   return "sRGB-encoded from " + std::string(info(color.format).name) + " and clamped to [0, 1]";
+}
+
+bool is_shown_otherwise(const RenderedFrame& result) {
+  return display_of(looks_of_text(result.looks)) != DisplayTransform();
+}
+
+std::string about_shown(const RenderedFrame& result) {
+  if (!is_shown_otherwise(result)) return about_codes(result.frame.color);
+  return "as PNGs show it, by" + escaped(result.looks);
+}
+
+/// The picture as PNGs of it have it; the same where that is as it is.
+Image shown_picture(const RenderedFrame& result) {
+  ImageFileOptions options;
+  options.display = display_of(looks_of_text(result.looks));
+  const Image& color = result.frame.color;
+  const bool are_codes =
+      result.pipeline.view != ImageView::lit || result.pipeline.post.encode == PostChain::Encode::srgb;
+  if (options.display == DisplayTransform() || are_codes) return color;
+  const PngCodes codes(color, options);
+  Image shown(color.width, color.height, Format::rgba8);
+  std::vector<uint8_t> row(codes.row_bytes());
+  const size_t channels = size_t(codes.channels()), bytes = size_t(codes.bits() / 8);
+  for (int y = 0; y < color.height; ++y) {
+    codes.row(y, row.data());
+    for (size_t x = 0; x < size_t(color.width); ++x)
+      for (size_t c = 0; c < 4; ++c) shown.texel(int(x), y)[c] = c < channels ? row[(x * channels + c) * bytes] : 255;
+  }
+  return shown;
 }
 
 std::string heading(const RenderedFrame& result) {
@@ -64,7 +95,8 @@ std::string pictures(const RenderedFrame& result) {
   const Image& counts = plane_named(planes, "light.count");
   const uint32_t most = heat_scale(counts);
   const int threads = result.execution.threads;
-  std::string html = "<div class=pictures>\n" + figure(result.frame.color, "Image", about_codes(result.frame.color));
+  const Image shown = shown_picture(result);
+  std::string html = "<div class=pictures>\n" + figure(shown, "Image", about_shown(result));
   // A statement each, so that no two pictures are in memory at once.
   html += figure(view_image(ImageView::normal, threads, planes), "Normal", "world space, (N + 1) / 2");
   html += figure(view_image(ImageView::albedo, threads, planes), "Albedo", "sRGB-encoded");
@@ -80,6 +112,8 @@ std::string pictures(const RenderedFrame& result) {
 std::string viewer(const RenderedFrame& result) {
   const std::vector<NamedImage>& planes = result.frame.aovs;
   PageViewer v;
+  if (is_shown_otherwise(result))
+    v.add(layer_of_image("shown", "Shown", "The picture, " + about_shown(result) + ".", shown_picture(result)));
   v.add(layer_of_image("color", "Image", "The picture, " + about_codes(result.frame.color) + ".", result.frame.color));
   v.add(layer_of_counts("lights", "Lights per pixel", "How many lights reach and face the surface.",
                         plane_named(planes, "light.count")));

@@ -1,6 +1,7 @@
 #pragma once
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -24,10 +25,23 @@ enum class PngEncoding : uint8_t {
   raw,        ///< the values as they are, without a transfer function
 };
 
+/// How a picture's light is brought into the range of a screen. Alpha stays.
+enum class ToneCurve : uint8_t {
+  clip,    ///< cut off at 1
+  filmic,  ///< K. Narkowicz, "ACES Filmic Tone Mapping Curve" (2016): a shoulder above, a short toe below
+};
+inline constexpr std::string_view kToneCurveNames[] = {"clip", "filmic"};
+struct DisplayTransform {
+  double scale = 1.0;  ///< of the light, before the curve; above 0
+  ToneCurve curve = ToneCurve::clip;
+  bool operator==(const DisplayTransform&) const = default;
+};
+
 /// How a picture is written.
 struct ImageFileOptions {
   PictureValues values = PictureValues::of_target;
   PngEncoding encoding = PngEncoding::by_values;
+  DisplayTransform display{};  ///< of a PNG; not of display codes
   int threads = 0;  ///< 0: one a core. Never changes a byte.
 };
 
@@ -37,7 +51,8 @@ struct ImageFileOptions {
 ///   PNG: 8 bits a channel, 16 where the target has 10 or 16; codes that need no encoding are stored as they are, those
 ///        of 10 bits widened (RN(k * 65535 / 1023)); colours that do are sRGB-encoded (IEC 61966-2-1) or, raw, rounded to
 ///        the nearest code. Alpha is linear and unassociated, and there is none where the format has none. Display codes
-///        are tagged by the chunks sRGB and gAMA 1/2.2, raw values by gAMA 1.0. `aovs` are ignored.
+///        are tagged by the chunks sRGB and gAMA 1/2.2, raw values by gAMA 1.0. `aovs` are ignored. Values of the target
+///        are passed through `display` before they are encoded.
 ///   EXR: single part, ZIP; `color` as R G B A (halves and smaller floats as half, unorm as float RN(k/largest), sRGB
 ///        decoded to linear); each aov under its channel names (Z, depth.Z, P.X.., N.X.., albedo.R.., uv.X..,
 ///        id.object, ...). `oiio:ColorSpace` is `sRGB` where `color` holds display codes, else `Linear`; values are

@@ -12,6 +12,7 @@ namespace trueshade {
 namespace {
 
 constexpr int kMostTableBits = 16;
+constexpr double kFilmicScale = 0.6;
 
 template <typename Word>
 void read_words(const uint8_t* row, std::vector<uint32_t>& stored) {
@@ -48,21 +49,43 @@ double srgb_from_linear(double linear) {
   return 1.055 * (root * root * root * root * root) - 0.055;
 }
 
+double shown_light(double value, const DisplayTransform& display) {
+  constexpr double kMost = 0x1p40;  // far above 1 on every curve, and its square is finite
+  const double light = value > 0.0 ? std::min(value * display.scale, kMost) : 0.0;
+  if (display.curve == ToneCurve::clip) return std::min(light, 1.0);
+  const double y = kFilmicScale * light;
+  return std::min(y * (2.51 * y + 0.03) / (y * (2.43 * y + 0.59) + 0.14), 1.0);
+}
+
+double light_behind(double shown, const DisplayTransform& display) {
+  const double s = std::clamp(shown, 0.0, 1.0);
+  if (display.curve == ToneCurve::clip) return s / display.scale;
+  const double a = 2.51 - 2.43 * s, b = 0.03 - 0.59 * s;  // of a y^2 + b y = 0.14 s
+  return (std::sqrt(b * b + 4.0 * a * (0.14 * s)) - b) / (2.0 * a) / (kFilmicScale * display.scale);
+}
+
 PngCodes::PngCodes(const Image& image, const ImageFileOptions& options)
     : image_(image),
       layout_(info(image.format)),
       channels_(layout_.channels),
       bits_(layout_.number_class == NumberClass::unorm && layout_.bits[0] > 8 ? 16 : 8),
-      transfer_(transfer_of(layout_, options)),
+      display_(options.values == PictureValues::display_codes ? DisplayTransform() : options.display),
+      transfer_(transfer_of(layout_, options, display_ != DisplayTransform())),
       tag_(options.encoding == PngEncoding::raw && options.values == PictureValues::of_target ? PngTag::linear
-                                                                                               : PngTag::srgb),
+                                                                                              : PngTag::srgb),
       as_stored_(transfer_ == Transfer::stored_code && layout_.bytes_per_channel == 1) {
   assert(layout_.number_class != NumberClass::integer);
   if (as_stored_ || layout_.bits[0] > kMostTableBits) return;
   for (int channel = 0; channel < channels_; ++channel) of_stored_.push_back(table_of(channel));
 }
 
-PngCodes::Transfer PngCodes::transfer_of(const FormatInfo& layout, const ImageFileOptions& options) {
+PngCodes::Transfer PngCodes::transfer_of(const FormatInfo& layout, const ImageFileOptions& options, bool transforms) {
+  const Transfer transfer = transfer_without_transform(layout, options);
+  if (!transforms || transfer != Transfer::stored_code) return transfer;
+  return layout.srgb && options.encoding != PngEncoding::raw ? Transfer::srgb : Transfer::none;
+}
+
+PngCodes::Transfer PngCodes::transfer_without_transform(const FormatInfo& layout, const ImageFileOptions& options) {
   const bool fixed_point = layout.number_class == NumberClass::unorm;
   const bool are_codes = options.values == PictureValues::display_codes;
   if (are_codes || options.encoding == PngEncoding::by_values) {
@@ -74,11 +97,11 @@ PngCodes::Transfer PngCodes::transfer_of(const FormatInfo& layout, const ImageFi
 }
 
 /// The nearest code, to even between two; NaN gives 0.
-uint16_t PngCodes::code_of_value(float value, Transfer transfer) const {
-  const float clamped = value > 0.0f ? std::min(value, 1.0f) : 0.0f;
-  if (bits_ == 8 && transfer == Transfer::srgb) return srgb8_code_of(clamped);
-  if (bits_ == 8) return uint16_t(std::nearbyint(255.0f * clamped));
-  const double coded = transfer == Transfer::srgb ? srgb_from_linear(double(clamped)) : double(clamped);
+uint16_t PngCodes::code_of_value(double value, Transfer transfer) const {
+  const double clamped = value > 0.0 ? std::min(value, 1.0) : 0.0;
+  if (bits_ == 8 && transfer == Transfer::srgb) return srgb8_code_of(float(clamped));
+  if (bits_ == 8) return uint16_t(std::nearbyint(255.0f * float(clamped)));
+  const double coded = transfer == Transfer::srgb ? srgb_from_linear(clamped) : clamped;
   return uint16_t(std::nearbyint(65535.0 * coded));
 }
 
@@ -88,7 +111,9 @@ uint16_t PngCodes::code_of_stored(uint32_t stored, int channel) const {
     const uint32_t largest = layout_.largest_code(channel), most = bits_ == 8 ? 255 : 65535;
     return uint16_t((stored * most + largest / 2) / largest);  // the PNG specification's (12.4) linear equation
   }
-  return code_of_value(float(value_of_code(layout_, channel, stored)), alpha ? Transfer::none : transfer_);
+  const double value = value_of_code(layout_, channel, stored);
+  if (alpha) return code_of_value(double(float(value)), Transfer::none);
+  return code_of_value(display_ == DisplayTransform() ? double(float(value)) : shown_light(value, display_), transfer_);
 }
 
 std::vector<uint16_t> PngCodes::table_of(int channel) const {

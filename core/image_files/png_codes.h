@@ -16,6 +16,13 @@ enum class PngTag : uint8_t {
 /// a root that Newton's method finds.
 double srgb_from_linear(double linear);
 
+/// The light that a screen is to show of a target's value: curve(scale x) in [0, 1]. NaN and what is below 0 give 0.
+/// filmic: y (2.51 y + 0.03) / (y (2.43 y + 0.59) + 0.14) of y = 0.6 scale x, Narkowicz' fit with his factor for the
+/// brightness of ACES.
+double shown_light(double value, const DisplayTransform& display);
+/// The value whose shown_light() is this one, in [0, 1].
+double light_behind(double shown, const DisplayTransform& display);
+
 /// The codes that a PNG holds for an image. This class defines the rule of image_io.h: which transfer function a
 /// channel's values pass, and to how many bits they are rounded.
 class PngCodes {
@@ -33,14 +40,16 @@ class PngCodes {
  private:
   enum class Transfer : uint8_t { stored_code, srgb, none };
 
-  static Transfer transfer_of(const FormatInfo& layout, const ImageFileOptions& options);
-  uint16_t code_of_value(float value, Transfer transfer) const;
+  static Transfer transfer_of(const FormatInfo& layout, const ImageFileOptions& options, bool transforms);
+  static Transfer transfer_without_transform(const FormatInfo& layout, const ImageFileOptions& options);
+  uint16_t code_of_value(double value, Transfer transfer) const;
   uint16_t code_of_stored(uint32_t stored, int channel) const;
   std::vector<uint16_t> table_of(int channel) const;
 
   const Image& image_;
   FormatInfo layout_;
   int channels_, bits_;
+  DisplayTransform display_;
   Transfer transfer_;
   PngTag tag_;
   bool as_stored_;                                ///< the image's bytes are the PNG's

@@ -30,6 +30,7 @@ Scene shown(Scene scene) {
   scene.camera = camera_seeing(scene);
   add_lights_of_ours(scene);
   add_ground(scene);
+  scene.is_model = true;
   return scene;
 }
 

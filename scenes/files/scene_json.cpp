@@ -93,6 +93,7 @@ Scene scene_from_json(std::string_view text, const std::string& path, const Scen
   const auto reference = reference_from_json(root, path, limits);
   Scene scene = reference ? scene_of_reference(*reference, root, load) : Scene();
   scene.spec = path;
+  scene.is_model = false;
   if (const auto pipeline = root.find("pipeline")) {
     pipeline_from_node(*pipeline,
                        presets().front().pipeline);  // bad values are refused here, where the place is known

@@ -1,6 +1,7 @@
 #include "scenes/pipeline/fit_lights.h"
 
 #include <algorithm>
+#include <span>
 
 #include "core/fp_env.h"
 #include "scenes/json/json_value.h"
@@ -20,7 +21,8 @@ void fit_lights_of_ours(Scene& scene, const Pipeline& pipeline) {
   const FpScope fp;
   const LightFit fit = fit_of(pipeline), made_for{scene.photometric, false};
   if (!scene.lights_of_ours || fit == made_for) return;
-  for (Light& light : scene.lights) {
+  const size_t ours = std::min(scene.lights.size(), kLightsOfOurs);
+  for (Light& light : std::span(scene.lights).last(ours)) {
     double gain = fit.divides_pi && light.type != LightType::ambient ? kPi : 1.0;
     if (fit.spreads != made_for.spreads) gain = fit.spreads ? gain * spread_light(light) : gain / spread_light(light);
     for (int c = 0; c < 3; ++c)

@@ -106,8 +106,17 @@ long double srgb_by_pow(long double x) {
 
 enum class Expected { stored, encoded, quantised };
 
+/// What a screen is to show of light (docs/looks.md).
+long double shown_by(const DisplayTransform& display, long double light) {
+  const long double x = light * static_cast<long double>(display.scale);
+  if (display.curve == ToneCurve::clip || !(x > 0)) return x;
+  const long double y = 0.6L * std::min(x, 1e12L);  // also of infinities
+  return (y * (2.51L * y + 0.03L)) / (y * (2.43L * y + 0.59L) + 0.14L);
+}
+
 /// Checks each code of `png` against the value of the image's channel, to half a code and the rounding of a float.
-void check_codes(const ScratchFolder& folder, const Image& image, const Bytes& png, Expected expected) {
+void check_codes(const ScratchFolder& folder, const Image& image, const Bytes& png, Expected expected,
+                 const DisplayTransform& display = {}) {
   const FormatInfo layout = info(image.format);
   const std::vector<int> codes = codes_of(folder, png);
   REQUIRE(codes.size() == size_t(image.width * image.height * layout.channels));
@@ -116,7 +125,9 @@ void check_codes(const ScratchFolder& folder, const Image& image, const Bytes& p
   for (size_t i = 0; i < codes.size(); ++i) {
     const int channel = int(i % size_t(layout.channels)), pixel = int(i / size_t(layout.channels));
     const int x = pixel % image.width, y = pixel / image.width;
-    long double value = std::min(1.0, std::max(0.0, image.value(x, y, channel)));
+    long double value = image.value(x, y, channel);
+    if (channel < 3) value = shown_by(display, value);
+    value = value > 1 ? 1 : value > 0 ? value : 0;
     if (expected == Expected::encoded && channel < 3) value = srgb_by_pow(value);
     if (expected == Expected::stored)
       value = static_cast<long double>(image.code(x, y, channel)) / layout.largest_code(channel);
@@ -162,6 +173,31 @@ TEST_CASE("raw, a PNG holds every target's values without a transfer function, a
   }
 }
 
+TEST_CASE("light is scaled and passes the tone curve before a PNG holds it, whatever the target and the encoding") {
+  const ScratchFolder folder;
+  for (const Format format : kTargetFormats)
+    for (const DisplayTransform& display : {DisplayTransform{0.25, ToneCurve::clip}, {3.0, ToneCurve::filmic}})
+      for (const PngEncoding encoding : {PngEncoding::by_values, PngEncoding::srgb, PngEncoding::raw}) {
+        const Image image = codes_image(format);
+        ImageFileOptions options = encoded_as(encoding);
+        options.display = display;
+        const Bytes png = encode_png(image, {}, options);
+        CHECK(outline_of(png) == (encoding == PngEncoding::raw ? kTaggedLinear : kTaggedSrgb));
+        const FormatInfo layout = info(format);
+        const bool holds_codes = layout.number_class == NumberClass::unorm && !layout.srgb;
+        const bool encodes = encoding == PngEncoding::srgb || (encoding == PngEncoding::by_values && !holds_codes);
+        check_codes(folder, image, png, encodes ? Expected::encoded : Expected::quantised, display);
+        write_image(folder.path("x.exr"), image, {}, {}, options);
+        CHECK(read_planes(folder.path("x.exr"))[0].image.value(17, 23, 0) == image.value(17, 23, 0));
+      }
+}
+
+TEST_CASE("the light behind what is shown is shown so") {
+  for (const DisplayTransform& display : {DisplayTransform{0.25, ToneCurve::clip}, {3e4, ToneCurve::filmic}})
+    for (int i = 0; i <= 255; ++i)
+      if (std::fabs(shown_light(light_behind(i / 255.0, display), display) - i / 255.0) > 1e-12) FAIL("at " << i);
+}
+
 TEST_CASE("pictures of display codes are never encoded again") {
   const ScratchFolder folder;
   for (const Format format : {Format::rgba8, Format::rgba16f, Format::rgba32f})
@@ -169,6 +205,7 @@ TEST_CASE("pictures of display codes are never encoded again") {
       const Image image = codes_image(format);
       ImageFileOptions options = encoded_as(encoding);
       options.values = PictureValues::display_codes;
+      options.display = {2.0, ToneCurve::filmic};  // which is of light
       const Bytes png = encode_png(image, {}, options);
       CHECK(outline_of(png) == kTaggedSrgb);
       check_codes(folder, image, png, Expected::quantised);
@@ -201,7 +238,8 @@ TEST_CASE("an EXR holds the target's values under every encoding, and says what 
     REQUIRE(read.size() == 2);
     for (size_t i = 0; i < 2; ++i) {
       const Image& from = i == 0 ? image : planes[0].image;
-      for (int c = 0; c < info(from.format).channels; ++c) CHECK(read[i].image.value(17, 23, c) == from.value(17, 23, c));
+      for (int c = 0; c < info(from.format).channels; ++c)
+        CHECK(read[i].image.value(17, 23, c) == from.value(17, 23, c));
     }
     for (const PngEncoding encoding : {PngEncoding::srgb, PngEncoding::raw}) {
       write_image(folder.path("y.exr"), image, planes, {}, encoded_as(encoding));
@@ -278,8 +316,8 @@ TEST_CASE("the hash is that of the stored bytes under every encoding, and info s
     REQUIRE(outcome.exit_code == 0);
     return outcome.out;
   };
-  const std::vector<std::string> render = {"render",   "builtin:cornell", "--size", "30x20", "--hash",
-                                           "--target", "rgba16f",         "-o",     "x.png", "-o", "x.exr"};
+  const std::vector<std::string> render = {
+      "render", "builtin:cornell", "--size", "30x20", "--hash", "--target", "rgba16f", "-o", "x.png", "-o", "x.exr"};
   const std::string hash = run(render);
   for (const auto& [encoding, tag] : {std::pair("srgb", "sRGB"), {"raw", "Linear"}}) {
     std::vector<std::string> arguments = render;
@@ -290,7 +328,8 @@ TEST_CASE("the hash is that of the stored bytes under every encoding, and info s
     CHECK(run({"info", "x.exr"}).find(row("Linear")) != std::string::npos);
   }
   CHECK(run_command({"render", "builtin:cornell", "-o", "x.exr", "--encode", "srgb"}, folder.path("")).exit_code == 2);
-  CHECK(run_command({"render", "builtin:cornell", "-o", "x.png", "--encode", "linear"}, folder.path("")).exit_code == 2);
+  CHECK(run_command({"render", "builtin:cornell", "-o", "x.png", "--encode", "linear"}, folder.path("")).exit_code ==
+        2);
 }
 
 TEST_CASE("a note names the encoding that was chosen for a float target's PNG, and none is said where none was") {
@@ -317,8 +356,8 @@ TEST_CASE("a note names the encoding that was chosen for a float target's PNG, a
 TEST_CASE("what a post chain has encoded is not encoded again") {
   const ScratchFolder folder;
   const auto pipeline = [&](const char* output) {
-    std::ofstream(folder.path("post.json")) << R"({"version": 1, "target": "rgba16f", "post": {"encode": "srgb", "output": ")"
-                                            << output << "\"}}";
+    std::ofstream(folder.path("post.json"))
+        << R"({"version": 1, "target": "rgba16f", "post": {"encode": "srgb", "output": ")" << output << "\"}}";
   };
   pipeline("rgba8");
   const double mean = mean_of(folder, {"--pipeline", "post.json"}, kTaggedSrgb);

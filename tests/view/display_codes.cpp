@@ -9,9 +9,10 @@ namespace trueshade::viewer {
 namespace {
 
 /// The codes of R, G and B that a PNG of a picture holds, read back by its reader; of 16 bits the nearest of 8.
-std::vector<uint32_t> words_of_png(const Image& image, PictureValues values) {
+std::vector<uint32_t> words_of_png(const Image& image, PictureValues values, const DisplayTransform& display) {
   ImageFileOptions options;
   options.values = values;
+  options.display = display;
   const Image png = decode_image(encode_png(image, {}, options), "test", 1 << 20);
   const bool wide = png.format == Format::rgba16;
   std::vector<uint32_t> words;
@@ -47,9 +48,10 @@ Image scrambled(Format format) {
 }
 
 /// All words of a picture, by rows.
-std::vector<uint32_t> shown_words(const Image& image, PictureValues values, DisplayCodes& codes) {
+std::vector<uint32_t> shown_words(const Image& image, PictureValues values, DisplayCodes& codes,
+                                  const DisplayTransform& display = {}) {
   std::vector<uint32_t> converted, words(size_t(image.width) * size_t(image.height));
-  codes.convert(image, values, converted);
+  codes.convert(image, values, display, converted);
   for (int y = 0; y < image.height; ++y)
     read_words(image, converted, 0, y, std::span(words).subspan(size_t(y * image.width), size_t(image.width)));
   return words;
@@ -58,11 +60,17 @@ std::vector<uint32_t> shown_words(const Image& image, PictureValues values, Disp
 TEST_CASE("A screen shows the codes that a PNG of the picture holds, for every target and kind of values") {
   DisplayCodes codes;  // keeps tables from one to the next
   for (const Format format : kTargetFormats) {
-    for (const PictureValues values : {PictureValues::of_target, PictureValues::display_codes}) {
+    for (const auto& [values, display] :
+         {std::pair(PictureValues::of_target, DisplayTransform()),
+          std::pair(PictureValues::display_codes, DisplayTransform()),
+          std::pair(PictureValues::of_target, DisplayTransform{0.5, ToneCurve::filmic}),
+          std::pair(PictureValues::of_target, DisplayTransform{2.5, ToneCurve::clip}),
+          std::pair(PictureValues::display_codes, DisplayTransform{2.5, ToneCurve::clip})}) {
       const Image image = scrambled(format);
-      const std::vector<uint32_t> words = shown_words(image, values, codes);
-      INFO(info(format).name << (values == PictureValues::of_target ? "" : " of display codes"));
-      const std::vector<uint32_t> expected = words_of_png(image, values);
+      const std::vector<uint32_t> words = shown_words(image, values, codes, display);
+      INFO(info(format).name << (values == PictureValues::of_target ? "" : " of display codes") << ", "
+                             << display.scale);
+      const std::vector<uint32_t> expected = words_of_png(image, values, display);
       int differing = 0;
       for (size_t i = 0; i < words.size(); ++i)
         for (const int shift : {0, 8, 16})
@@ -85,7 +93,7 @@ TEST_CASE("A part of a row has the words that the whole row has there, for every
   for (const Format format : kTargetFormats) {
     const Image image = scrambled(format);
     std::vector<uint32_t> converted;
-    codes.convert(image, PictureValues::of_target, converted);
+    codes.convert(image, PictureValues::of_target, {}, converted);
     std::vector<uint32_t> row(size_t(image.width));
     read_words(image, converted, 0, 11, row);
     for (const size_t count : {1u, 15u, 16u, 17u, 32u}) {

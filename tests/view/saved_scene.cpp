@@ -119,6 +119,26 @@ TEST_CASE("A scene that lies neither beside the saved file nor below is refused,
   CHECK_THROWS_WITH(saved_scene(piped, picture, folder.path("saved.json")), Catch::Contains("standard input"));
 }
 
+TEST_CASE("A saved scene keeps a background that was asked for, and lights that no scene file says are refused") {
+  const ScratchFolder folder;
+  SceneSource source = source_of("builtin:cornell");
+  std::string looks = " --background 0.25,0.5,0.75,1";
+  source.bring_to_looks = [&looks](Scene& scene, const Pipeline&) {
+    scene.clear = {0.25f, 0.5f, 0.75f, 1.0f};
+    return looks;
+  };
+  std::vector<std::string> files;
+  const OpenedScene kept = opened_scene(source, files);
+  DrawnPicture picture;
+  picture.pipeline = kept.facts.pipeline;
+  CHECK_THAT(saved_scene(kept.facts, picture, folder.path("saved.json")),
+             Catch::Contains("\"clear\": [0.25, 0.5, 0.75, 1]"));
+  looks += " --lights add";
+  const OpenedScene added = opened_scene(source, files);
+  CHECK_THROWS_WITH(saved_scene(added.facts, picture, folder.path("saved.json")),
+                    Catch::Contains("no scene file says the lights that --lights add has made"));
+}
+
 TEST_CASE("An angle in degrees is read as the very float of radians, for 100,000 angles") {
   uint32_t random = 1;
   int wrong = 0;

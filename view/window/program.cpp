@@ -8,6 +8,7 @@
 #include "cli/command_tables.h"
 #include "cli/commands.h"
 #include "cli/help_text.h"
+#include "cli/looks.h"
 #include "cli/options.h"
 #include "cli/preparation.h"
 #include "core/error.h"
@@ -50,7 +51,11 @@ void run_window(const ViewOptions& options) {
   std::vector<ScriptStep> steps = script_of(options);
   const Display display;
   const SceneSource source{options.scene, [&options] { return scene_of_options(options.scene, options.limits); },
-                           [&options](const Scene& scene) { return pipeline_of(options, scene); }, options.limits};
+                           [&options](const Scene& scene) { return pipeline_of(options, scene); },
+                           [&options](Scene& scene, const Pipeline& pipeline) {
+                             return looks_text(bring_to_looks(options, pipeline, ChosenLooks::by_scene, scene));
+                           },
+                           options.limits};
   std::vector<std::string> files;
   OpenedScene opened = opened_scene(source, files);
   const Window::Look look = look_of(options, display);

@@ -26,6 +26,7 @@ Scene SceneMaker::make() {
   Timeline& timeline = scene_.timeline;
   scene_.spec = document_.file;
   scene_.photometric = true;
+  scene_.is_model = true;
   prepare();
   pictures_.decode_all([this] { read_geometry_and_nodes(); });
   bake_uv(scene_, materials_.uv_sources(), [this](uint64_t bytes) { accessors_.take(bytes, "/meshes"); });

@@ -1,0 +1,46 @@
+#pragma once
+#include <string>
+
+#include "cli/option_table.h"
+#include "core/image_files/image_io.h"
+#include "scenes/pipeline/pipeline.h"
+#include "scenes/scene.h"
+
+// How a picture is to look: --samples, --background, --lights, --exposure and --tone-map, as one value that commands
+// and the metadata of pictures share (docs/looks.md).
+namespace trueshade {
+
+struct ClusteredScene;
+
+inline constexpr std::string_view kLightChoices[] = {"keep", "soft", "add", "three", "none"};
+
+/// The rows of all of them, under a heading of their own.
+void add_looks(CommandTable& table, Looks& looks);
+
+/// Error(usage) naming the option whose text means nothing.
+void check_looks(const Looks& looks);
+
+/// --samples, with an output of the post chain that fits the target. Nothing without the option.
+void set_samples(const Looks& looks, Pipeline& pipeline);
+
+/// Whether the looks that were not asked for are chosen by the scene.
+enum class ChosenLooks : uint8_t { by_scene, never };
+
+/// Brings a scene that was just loaded to the looks asked for, and returns them with nothing left to choose: what is
+/// passed here again, with ChosenLooks::never, gives the same scene. By the scene, of a model file whose pipeline no
+/// option names, are chosen: lights where the file's own leave its surfaces black, exposure where they would be burnt
+/// or black, and an opaque background. Says in Scene::notes what was chosen. Lights of ours are not yet fitted to the
+/// pipeline. Draws small pictures to measure what the lights do, before set_time(). Error(usage): a tone curve of a
+/// target that cuts light off. `stored`: of a scene in a cache file, which is checked before it is measured.
+Looks bring_to_looks(const PipelineOptions& options, const Pipeline& pipeline, ChosenLooks chosen, Scene& scene,
+                     const ClusteredScene* stored = nullptr);
+
+/// Of looks with nothing left to choose; what does nothing where they have no exposure.
+DisplayTransform display_of(const Looks& looks);
+
+/// As options with a space before each, but for the samples, which are in the pipeline; empty where there are none.
+std::string looks_text(const Looks& looks);
+/// What looks_text() gave. Error(usage) of other texts.
+Looks looks_of_text(const std::string& text);
+
+}  // namespace trueshade
