@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cli/option_table.h"
+#include "cli/option_texts.h"
 #include "compare/picture_mask.h"
 
 namespace trueshade {

@@ -18,10 +18,10 @@ namespace trueshade {
 namespace {
 
 void render_frames(const RenderOptions& options, Pictures& pictures, PictureSink& sink) {
-  const int count = options.frames->last - options.frames->first + 1;
+  const FrameRange frames = *options.numbered();
   Activity activity("rendering frames", Activity::Counts::by_hand);
-  for (int frame = options.frames->first; frame <= options.frames->last; ++frame) {
-    activity.show(frame - options.frames->first, count, "frames");
+  for (int frame = frames.first; frame <= frames.last; ++frame) {
+    activity.show(frame - frames.first, frames.last - frames.first + 1, "frames");
     pictures.picture(frame, sink);
   }
 }
@@ -57,12 +57,12 @@ void check_outputs(const RenderOptions& options, const MpiStart& start) {
 }  // namespace
 
 SceneToRender::SceneToRender(const RenderOptions& options, const Execution& execution)
-    : cached(cached_scene_of_options(options.scene, options.limits)),
+    : cached(cached_scene_of_options(options.scene, options.limits, options.parts)),
       scene(cached.scene),
       pipeline(pipeline_of(options, scene)) {
   check_cube_map(options, pipeline);
   validate_region(pipeline, options.execution.region);
-  if (options.resume && (!is_streamed(options, pipeline) || options.outputs.empty() || options.frames))
+  if (options.resume && (!is_streamed(options, pipeline) || options.outputs.empty() || options.numbered()))
     throw Error(ErrorKind::usage, "--resume", "one large picture that goes into files can be gone on with",
                 "leave it out: a picture over 16384 pixels a side, or of more than 67108864, is large");
   fit_lights_of_ours(scene, pipeline);
@@ -90,7 +90,7 @@ void render(const RenderOptions& options) {
   } else {
     SceneToRender of(options, execution_of(options));
     Pictures pictures(options, of.cached, of.pipeline, execution_of(options));
-    if (options.frames)
+    if (options.numbered())
       render_frames(options, pictures, sink);
     else
       pictures.picture(std::nullopt, sink);

@@ -24,7 +24,6 @@
 #include "core/printable_text.h"
 #include "judge/bounds/profile_file.h"
 #include "scenes/files/content/scene_files.h"
-#include "scenes/pipeline/fit_lights.h"
 #include "scenes/scene.h"
 #include "shading/program/program_frame.h"
 
@@ -146,12 +145,10 @@ bool judge_opengl(const ValidationOptions& options) {
   std::optional<CaptureFiles> files;
   if (options.capture.given()) files = capture_files_of(options.capture, options.limits);
   activity->now("reading the scene");
-  Scene scene = scene_of_options(options.scene, options.limits);
-  set_time(scene, options.time);
-  const Pipeline asked = pipeline_of(options, scene);
-  fit_lights_of_ours(scene, asked);
-  v.pipeline = with_planes_of_program(asked);
+  Scene scene = scene_of_options(options);
+  v.pipeline = with_planes_of_program(pipeline_of(options, scene));
   if (files && !options.size) v.pipeline.width = files->width(), v.pipeline.height = files->height();
+  show(scene, options.camera, v.pipeline, options.time);
   check_memory(scene, v.pipeline, {}, {}, judging_memory(options, v.pipeline));
   if (names_vulkan(options.driver)) v.profile = *oracle::profile_named("vulkan");
   if (options.held_to) v.profile = profile_of(*options.held_to);
@@ -199,7 +196,7 @@ bool judge_opengl(const ValidationOptions& options) {
     v.command = "trueshade" + options.command_line;
     v.reference = reference_of(scene, v);
     const std::string against = !options.saved.empty() ? options.saved.front() : picture_of(options.capture);
-    v.explain_command = explain_command(options, v.pipeline, options.time, against);
+    v.explain_command = explain_command(options, options.camera, v.pipeline, options.time, against);
     const std::string page = validation_page(v, scene);
     write_file(*options.report, {reinterpret_cast<const uint8_t*>(page.data()), page.size()});
   }

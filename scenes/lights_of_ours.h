@@ -1,5 +1,6 @@
 #pragma once
 #include "scenes/scene.h"
+#include "scenes/scene_defaults.h"
 
 namespace trueshade {
 
@@ -22,5 +23,8 @@ double spread_light(const Light& lamp);
 /// Nothing where nothing is drawn, or where the disc would leave the range of positions. The camera's far plane is
 /// moved behind it; the camera of camera_seeing() is above it.
 void add_ground(Scene& scene);
+
+/// Moves a camera's far plane behind that ground. `bounds`: of what stands on it, see bounds_without_ground().
+void see_ground(Camera& camera, const Bounds& bounds);
 
 }  // namespace trueshade
