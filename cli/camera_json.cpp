@@ -12,9 +12,9 @@ constexpr std::string_view kKeys[] = {"name", "orbit", "distance", "distance_per
 constexpr json::ObjectKeys kCamera = {"camera", kKeys};
 
 std::string list_of(const glm::vec3& place) {
-  JsonArray list;
-  for (int k = 0; k < 3; ++k) list.add_raw(json_number(double(place[k])));
-  return list.text();
+  std::string list;
+  for (int k = 0; k < 3; ++k) json::append_number(list += k == 0 ? "" : ", ", place[k]);
+  return '[' + list + ']';
 }
 
 }  // namespace

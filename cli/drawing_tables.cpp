@@ -41,10 +41,10 @@ void add_camera(CommandTable& table, CameraTexts& texts) {
   add_value(table, "--camera", "NUMBER|NAME", texts.camera,
             "Which of the scene's cameras sees it, by number from 0 or by name; trueshade info lists them")
       .group = kCameraGroup;
-  add_value(
-      table, "--orbit", "AZ,EL[,DISTANCE]", texts.orbit,
-      "See all of the scene from a side: degrees to the right of its front and above it. The distance is in scene "
-      "units from the centre, or like 150% of the one from which all is seen, which it is without")
+  add_value(table, "--orbit", "AZ,EL[,DISTANCE]", texts.orbit,
+            "See all of the scene from a side: AZ degrees to the right of its front, EL degrees above it. DISTANCE is "
+            "in scene "
+            "units from the centre, or like 150% of the one from which all is seen, which it is unless given")
       .group = kCameraGroup;
   add_value(table, "--eye", "X,Y,Z", texts.eye, "Where the camera is, in the world").group = kCameraGroup;
   add_value(table, "--look-at", "X,Y,Z", texts.look_at,

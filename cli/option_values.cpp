@@ -119,16 +119,17 @@ OrbitPlace orbit_from_text(const std::string& text) {
   const char *at = text.data(), *const end = at + text.size();
   int count = 0;
   for (double* const value : {&place.azimuth_deg, &place.elevation_deg, &place.distance}) {
-    if (count > 0 && (at == end || *at++ != ',')) break;
+    if (count == 2 && at == end) break;
+    const bool begins = count == 0 || (at != end && *at++ == ',');
     const auto [after, error] = std::from_chars(at, end, *value);
-    if (error != std::errc()) break;
+    if (!begins || error != std::errc()) throw usage("--orbit", "'" + text + "' is no place on an orbit", form);
     at = after, ++count;
   }
   if (count == 3) {
     place.unit = at != end && *at == '%' ? DistanceUnit::percent : DistanceUnit::scene_units;
     at += place.unit == DistanceUnit::percent ? 1 : 0;
   }
-  if (count < 2 || at != end) throw usage("--orbit", "'" + text + "' is no place on an orbit", form);
+  if (at != end) throw usage("--orbit", "'" + text + "' is no place on an orbit", form);
   if (!(place.azimuth_deg >= -kMostTurn && place.azimuth_deg <= kMostTurn))
     throw usage("--orbit", "the azimuth of '" + text + "' is not within 36000 degrees", form);
   if (!(place.elevation_deg >= -90.0 && place.elevation_deg <= 90.0))

@@ -13,6 +13,7 @@
 namespace trueshade {
 namespace {
 
+constexpr double kFarBelow = 50.0;    // far planes: where a ground is that nobody is to see
 constexpr double kLeastDepth = 1e-4;  // of a near plane: its share of the far one's
 
 glm::dvec3 vertical_of(const Scene& scene) {
@@ -67,6 +68,7 @@ Camera orbiting(const Scene& scene, const CameraChanges& changes, const glm::dve
   SeenFrom view = view_of(place, vertical);
   view.slope = slope_of(camera, aspect);
   if (changes.target) view.target = glm::dvec3(*changes.target);
+  view.both_middles = true;
   const Framing framing = framing_of(scene, view);
   const bool in_units = place.unit == DistanceUnit::scene_units;
   const double distance = in_units ? place.distance : place.distance / 100.0 * framing.distance;
@@ -145,6 +147,16 @@ Camera ChangedCamera::camera(const Scene& scene) const {
   return camera;
 }
 
+void ChangedCamera::see(Scene& scene) const {
+  scene.camera = camera(scene);
+  if (!scene.ground_of_ours || scene.instances.empty() || !changes_.any()) return;
+  const FpScope fp;
+  Instance& ground = scene.instances.back();
+  const Mesh& disc = scene.meshes[ground.mesh];
+  const double height = disc.vertex_count() > 0 ? double(disc.position[1][0]) : 0.0, eye = double(scene.camera.eye.y);
+  ground.world_from_object[3].y = eye < height ? float(eye - height - kFarBelow * double(scene.camera.far)) : 0.0f;
+}
+
 std::vector<CameraChanges> turntable(const Scene& scene, const CameraChanges& changes, int count, double aspect) {
   const FpScope fp;
   const OrbitPlace first = changes.orbit.value_or(OrbitPlace{0.0, 20.0});
@@ -179,9 +191,7 @@ std::string option_text(const CameraChanges& changes) {
       text += ',' + number_text(orbit->distance) + '%';
   }
   for (const auto& [option, place] : {std::pair{" --eye ", &changes.eye}, {" --look-at ", &changes.target}})
-    if (*place)
-      text += option + number_text(double((*place)->x)) + ',' + number_text(double((*place)->y)) + ',' +
-              number_text(double((*place)->z));
+    for (int k = 0; *place && k < 3; ++k) json::append_number(text += k == 0 ? option : ",", (**place)[k]);
   if (changes.fov_y_deg) text += " --fov " + number_text(*changes.fov_y_deg);
   return text;
 }

@@ -52,8 +52,9 @@ class ChangedCamera {
 
   /// The camera of the scene as it stands. Error(usage) where validate_camera() refuses it.
   Camera camera(const Scene& scene) const;
-  /// Replaces the scene's camera by it; to be called after each set_time().
-  void see(Scene& scene) const { scene.camera = camera(scene); }
+  /// Replaces the scene's camera by it; to be called after each set_time(). Where changes put the eye below a ground of
+  /// ours, the ground is moved behind the far plane, for all would lie behind it.
+  void see(Scene& scene) const;
 
  private:
   CameraChanges changes_;

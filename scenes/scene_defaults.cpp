@@ -66,8 +66,38 @@ struct SeenPoints {
   }
 };
 
+/// What is seen from a distance: of points at x and z the extremes of (x - off) / (distance - z), and of y alike.
+struct SeenEnds {
+  SeenPoints from;
+  double distance = 1.0;
+  glm::dvec2 off{0.0};
+  glm::dvec2 most{-kInfinity}, least{kInfinity};
+  glm::dvec2 most_at[2]{}, least_at[2]{};  ///< x or y, and distance - z, of the points there
+
+  void add(const glm::dvec3& point) {
+    const glm::dvec3 to = point - from.centre;
+    const glm::dvec2 at(dot(to, from.right), dot(to, from.up));
+    const double depth = distance - dot(to, from.toward);
+    for (int k = 0; k < 2; ++k) {
+      const double seen = (at[k] - off[k]) / depth;
+      if (seen > most[k]) most[k] = seen, most_at[k] = {at[k], depth};
+      if (seen < least[k]) least[k] = seen, least_at[k] = {at[k], depth};
+    }
+  }
+
+  /// The offsets that bring these points to the same distance from the middle.
+  glm::dvec2 middle() const {
+    glm::dvec2 out = off;
+    for (int k = 0; k < 2; ++k)
+      if (const double depths = most_at[k].y + least_at[k].y; depths > 0.0)
+        out[k] = (most_at[k].x * least_at[k].y + least_at[k].x * most_at[k].y) / depths;
+    return out;
+  }
+};
+
 /// All vertices, or of very many the corners of the box.
-void add_points(const Scene& scene, const Bounds& bounds, SeenPoints& seen) {
+template <class Seen>
+void add_points(const Scene& scene, const Bounds& bounds, Seen& seen) {
   constexpr size_t kMost = 20'000'000;
   size_t count = 0;
   for (const Instance& instance : without_ground(scene)) count += scene.meshes[instance.mesh].vertex_count();
@@ -115,6 +145,11 @@ Framing framing_of(const Scene& scene, const SeenFrom& view) {
     if (!view.target) off[k] = (seen.most[k] + seen.least[k]) / 2.0;
   }
   framing.distance = std::max({wide.x, wide.y, seen.front + kNearest * framing.bounds.radius});
+  for (int pass = 0; view.both_middles && !view.target && pass < 4; ++pass) {  // other points may be at the ends then
+    SeenEnds ends{seen, framing.distance, off};
+    add_points(scene, framing.bounds, ends);
+    off = ends.middle();
+  }
   framing.target = seen.centre + seen.right * off.x + seen.up * off.y;
   framing.front = seen.front, framing.behind = -seen.back;
   return framing;

@@ -22,6 +22,7 @@ struct SeenFrom {
   glm::dvec3 toward, right, up;      ///< world, unit, at right angles: to the eye; right and up in the picture
   glm::dvec2 slope;                  ///< tangents of half the angles that are seen across the picture and up it
   std::optional<glm::dvec3> target;  ///< in the picture's middle; nothing: the middle of what is seen is there
+  bool both_middles = false;         ///< also along the side of the picture that is not full
 };
 
 /// How far off the eye is to be.

@@ -337,10 +337,11 @@ void set_orbit(PythonScene& to, double azimuth_deg, double elevation_deg, const 
   for (const double side : sides) number_within(side, "size", 1.0, double(uint64_t(1) << 20));
   const double time = to.time();
   to.set_time(0.0);  // where scenes are framed
-  const Camera camera = ChangedCamera(to.values(), changes, sides[0] / sides[1]).camera(to.values());
+  const ChangedCamera camera(to.values(), changes, sides[0] / sides[1]);
   to.set_time(time);
   Scene& scene = to.changeable();
-  scene.camera = camera, scene.camera_of_ours = false;
+  camera.see(scene);
+  scene.camera_of_ours = false;
 }
 
 void set_clear(PythonScene& to, const py::object& color) {

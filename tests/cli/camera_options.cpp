@@ -54,8 +54,8 @@ class Folder {
     CHECK(outcome.exit_code == 0);
     return outcome.out;
   }
-  std::string hash(const std::string& scene, Words more) const {
-    more.insert(more.begin(), {"render", scene, "--hash", "-q", "--size", "60x40"});
+  std::string hash(const std::string& scene, Words more, const std::string& size = "60x40") const {
+    more.insert(more.begin(), {"render", scene, "--hash", "-q", "--size", size});
     return said(more);
   }
   std::string path(const std::string& name) const { return folder_.path(name); }
@@ -71,7 +71,7 @@ std::string metadata_of(const std::string& path, const std::string& key) {
   return "none";
 }
 
-/// Shares of width and height that object 0 covers.
+/// Shares of width and height that the first object covers.
 std::pair<double, double> covered(const Folder& folder, const std::string& file) {
   Image ids;
   for (const NamedImage& plane : read_planes(folder.path(file)))
@@ -79,7 +79,7 @@ std::pair<double, double> covered(const Folder& folder, const std::string& file)
   int left = ids.width, right = -1, top = ids.height, bottom = -1;
   for (int y = 0; y < ids.height; ++y)
     for (int x = 0; x < ids.width; ++x)
-      if (ids.code(x, y, 0) == 0) {
+      if (ids.code(x, y, 0) == 1) {
         left = std::min(left, x), right = std::max(right, x), top = std::min(top, y), bottom = std::max(bottom, y);
       }
   return {double(right - left + 1) / ids.width, double(bottom - top + 1) / ids.height};
@@ -185,12 +185,11 @@ TEST_CASE("every command that shows a scene takes the options of the camera, and
   CHECK(eye != json::parse(folder.said({"info", "slab.obj", "--resolved", "--size", "40x30"}))["camera"].dump());
   with({"glsl", "slab.obj", "-o", "frame", "-q"});
   folder.said({"export", "slab.obj", "-o", "x.glb", "-q", "--orbit", "40,10,90%"});
-  CHECK(folder.hash("slab.obj", {"--orbit", "40,10,90%", "--size", "40x40"}) ==
-        folder.hash("x.glb", {"--size", "40x40"}));
+  CHECK(folder.hash("slab.obj", {"--orbit", "40,10,90%"}, "40x40") == folder.hash("x.glb", {}, "40x40"));
   with({"bench", "slab.obj", "-q"});
   with({"render", "slab.obj", "-o", "g.exr", "--aov", "depth,position,normal,albedo,id.object", "-q"});
   CHECK(folder.said({"shade", "g.exr", "--lights", "slab.obj", "--orbit", "40,10,90%", "--hash", "-q"}) ==
-        folder.hash("slab.obj", {"--orbit", "40,10,90%", "--size", "40x30"}));
+        folder.hash("slab.obj", {"--orbit", "40,10,90%"}, "40x30"));
   const Outcome judged = folder.run({"validate", "slab.obj", "--gbuffer", "g.exr", "--orbit", "40,10,90%"});
   INFO(judged.out << judged.err);
   CHECK(judged.exit_code == 0);
@@ -263,8 +262,8 @@ TEST_CASE("a look from straight above is drawn, with the front at the picture's 
         bool upper = false, lower = false;
         for (int y = 0; y < 40; ++y)
           for (int x = 0; x < 40; ++x) {
-            upper = upper || (y < 20 && plane.image.code(x, y, 0) == 1);
-            lower = lower || (y >= 20 && plane.image.code(x, y, 0) == 0);
+            upper = upper || (y < 20 && plane.image.code(x, y, 0) == 2);
+            lower = lower || (y >= 20 && plane.image.code(x, y, 0) == 1);
           }
         CHECK((upper && lower));
       }
