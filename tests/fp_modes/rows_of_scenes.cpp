@@ -1,4 +1,5 @@
 // scenes/: what is read, moved, checked and hashed.
+#include "core/error.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/pipeline/pipeline.h"
 #include "tests/fp_modes/rows.h"
