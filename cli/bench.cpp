@@ -17,7 +17,6 @@
 #include "core/error.h"
 #include "core/image_files/image_io.h"
 #include "core/threads/parallel_for.h"
-#include "scenes/pipeline/fit_lights.h"
 #include "scenes/scene.h"
 
 namespace trueshade {
@@ -143,11 +142,11 @@ PipelineOptions options_of(const BenchOptions& options, const std::string& spec)
 
 SceneTime measured(const BenchOptions& options, const std::string& spec, const Execution& execution) {
   const PeakMemory memory;
-  Scene scene = scene_of_options(spec, options.limits);
+  Scene scene = scene_of_options(spec, options.limits, options.parts);
   SceneTime result;
   result.scene = scene.spec;
   result.pipeline = pipeline_of(options_of(options, spec), scene);
-  fit_lights_of_ours(scene, result.pipeline);
+  show(scene, options.camera, result.pipeline, 0.0);
   result.notes = notes_of(scene, result.pipeline);
   check_memory(scene, result.pipeline, execution, {});
   const PreparedScene prepared(scene);

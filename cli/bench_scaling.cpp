@@ -15,6 +15,12 @@ namespace {
 constexpr double kSlowMs = 1000.0;  ///< frames that take longer are not followed by ten times as much
 constexpr ContestRules kRules{7, 1000.0};
 
+Scene shown_scene(const PipelineOptions& options) {
+  Scene scene = scene_of_options(options);
+  show(scene, options.camera, pipeline_of(options, scene), 0.0);
+  return scene;
+}
+
 /// A scene to be drawn by us alone, ready.
 struct ScaledScene {
   Scene scene;
@@ -22,9 +28,7 @@ struct ScaledScene {
   OwnFrames frames;
 
   ScaledScene(const PipelineOptions& options, const Execution& execution)
-      : scene(scene_of_options(options.scene, options.limits)),
-        prepared(scene),
-        frames(prepared, pipeline_of(options, scene), execution) {
+      : scene(shown_scene(options)), prepared(scene), frames(prepared, pipeline_of(options, scene), execution) {
     frames.checked_hash(simd_targets()[simd_targets().size() > 1 ? 1 : 0]);
   }
 };

@@ -7,7 +7,7 @@ CommandTables::CommandTables() {
   tables_.push_back(info_table(info_, info_texts_));
   tables_.push_back(list_table(list_));
   tables_.push_back(glsl_table(glsl_, glsl_texts_));
-  tables_.push_back(export_table(export_, export_time_));
+  tables_.push_back(export_table(export_, export_texts_));
   tables_.push_back(validate_table(validation_, validation_texts_));
   tables_.push_back(probe_table(probe_));
   tables_.push_back(shade_table(shade_, shade_texts_));

@@ -9,7 +9,7 @@ CommandTable render_table(RenderOptions& options, RenderTexts& texts);
 CommandTable info_table(InfoOptions& options, InfoTexts& texts);
 CommandTable list_table(ListOptions& options);
 CommandTable glsl_table(GlslFilesOptions& options, GlslTexts& texts);
-CommandTable export_table(ExportOptions& options, std::optional<std::string>& time);
+CommandTable export_table(ExportOptions& options, ExportTexts& texts);
 CommandTable validate_table(ValidationOptions& options, ValidationTexts& texts);
 CommandTable probe_table(ProbeOptions& options);
 CommandTable shade_table(ShadeOptions& options, ShadeTexts& texts);
@@ -41,7 +41,7 @@ class CommandTables {
   GlslFilesOptions glsl_;
   GlslTexts glsl_texts_;
   ExportOptions export_;
-  std::optional<std::string> export_time_;
+  ExportTexts export_texts_;
   ValidationOptions validation_;
   ValidationTexts validation_texts_;
   ProbeOptions probe_;
@@ -68,6 +68,7 @@ inline constexpr const char* kCameraGroup = "Camera and time";
 void add_layers(CommandTable& table, PipelineOptions& options);  ///< --preset and --pipeline; opens `Pipeline`
 void add_size(CommandTable& table, std::optional<std::string>& size);
 void add_time(CommandTable& table, std::optional<std::string>& time);
+void add_camera(CommandTable& table, CameraTexts& texts);  ///< which camera sees, and which animation is played
 void add_target(CommandTable& table, std::optional<std::string>& target);
 void add_strategy(CommandTable& table, std::optional<std::string>& strategy);
 void add_profile(CommandTable& table, std::optional<std::string>& profile);

@@ -38,6 +38,27 @@ void add_time(CommandTable& table, std::optional<std::string>& time) {
   add_value(table, "--time", "SECONDS", time, "Time of the scene's timeline, seconds").group = kCameraGroup;
 }
 
+void add_camera(CommandTable& table, CameraTexts& texts) {
+  add_value(table, "--camera", "NUMBER|NAME", texts.camera,
+            "Which of the scene's cameras sees it, by number from 0 or by name; trueshade info lists them")
+      .group = kCameraGroup;
+  add_value(table, "--orbit", "AZ,EL[,DISTANCE]", texts.orbit,
+            "See all of the scene from a side: AZ degrees to the right of its front, EL degrees above it. DISTANCE is "
+            "in scene "
+            "units from the centre, or like 150% of the one from which all is seen, which it is unless given")
+      .group = kCameraGroup;
+  add_value(table, "--eye", "X,Y,Z", texts.eye, "Where the camera is, in the world").group = kCameraGroup;
+  add_value(table, "--look-at", "X,Y,Z", texts.look_at,
+            "The place in the world that the camera looks at; with --orbit the one that it goes around")
+      .group = kCameraGroup;
+  add_value(table, "--fov", "DEGREES", texts.fov, "Angle that is seen from the picture's lower edge to its upper one")
+      .group = kCameraGroup;
+  add_value(table, "--animation", "NUMBER|NAME|all", texts.animation,
+            "Which of a glTF file's animations moves it, by number from 0 or by name, or all as one; without it the "
+            "first")
+      .group = kCameraGroup;
+}
+
 void add_target(CommandTable& table, std::optional<std::string>& target) {
   add_choice(table, "--target", "FORMAT", target, "Format the image is stored in:", target_names()).group = "Pipeline";
 }
@@ -127,8 +148,12 @@ CommandTable render_table(RenderOptions& options, RenderTexts& texts) {
             "its top left")
       .group = kCameraGroup;
   add_time(table, texts.time);
+  add_camera(table, texts.camera);
   add_value(table, "--frames", "FIRST-LAST", texts.frames,
             "Frames FIRST-LAST of the timeline; output names hold %04d or ####, or get .0000 before the ending")
+      .group = kCameraGroup;
+  add_value(table, "--turntable", "COUNT", texts.turntable,
+            "So many pictures around the scene, from --orbit's side or from 0,20 on; output names as of --frames")
       .group = kCameraGroup;
   add_value(table, "--cube-map", "X,Y,Z", texts.cube_map,
             "Draw the six faces of a cube map of this place in the world, or of the camera's (eye): names get .px .nx "
@@ -168,6 +193,7 @@ CommandTable shade_table(ShadeOptions& options, ShadeTexts& texts) {
   add_switch(table, "--hash", options.hash, "Print the hash of the image's stored bytes");
   add_quiet(table, options, kQuietHelp);
   add_time(table, texts.time);
+  add_camera(table, texts.camera);
   add_layers(table, options);
   add_light_program(table, options);
   add_target(table, texts.target);
@@ -201,6 +227,7 @@ CommandTable explain_table(ExplainOptions& options, ExplainTexts& texts) {
   add_quiet(table, options, "Say neither notes nor progress");
   add_size(table, texts.size);
   add_time(table, texts.time);
+  add_camera(table, texts.camera);
   add_layers(table, options);
   add_light_program(table, options);
   add_target(table, texts.target);
@@ -226,6 +253,7 @@ CommandTable view_table(ViewOptions& options, ViewTexts& texts) {
   add_quiet(table, options, "Say neither notes nor progress");
   add_size(table, texts.size);
   add_time(table, texts.time);
+  add_camera(table, texts.camera);
   add_layers(table, options);
   add_light_program(table, options);
   add_strategy(table, texts.strategy);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/camera_json.h"
 #include "cli/capture/capture_files.h"
 #include "cli/capture/plane_images.h"
 #include "cli/capture/stored_planes.h"
@@ -24,7 +25,6 @@
 #include "explain/against.h"
 #include "explain/finished_pixel.h"
 #include "judge/stages/legal_pixel.h"
-#include "scenes/pipeline/fit_lights.h"
 #include "scenes/pipeline/presets.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
@@ -106,21 +106,27 @@ std::string distance_words(Format format, double difference) {
   return text;
 }
 
-/// What a picture of ours says of itself: preset and strategy, if it says so.
+/// What a picture of ours says of itself: preset, strategy and how it was seen, if it says so.
 std::string record_of(const std::string& path) {
   if (!has_ending(path, ".png") && !has_ending(path, ".exr")) return {};
-  for (const auto& [key, value] : read_image_info(path).metadata) {
-    if (key != "trueshade:pipeline") continue;
-    try {
+  std::string record;
+  SceneParts parts;
+  CameraChanges camera;
+  try {
+    for (const auto& [key, value] : read_image_info(path).metadata) {
+      if (key == kCameraKey) read_camera_json(value, path, parts, camera);
+      if (key == kAnimationKey) parts.animation = value;
+      if (key != "trueshade:pipeline") continue;
       const Pipeline p = pipeline_from_json(value, path, presets().front().pipeline);
       const std::string lights =
           p.light_program.used() ? "light program " + p.light_program.file : "preset " + p.preset;
-      return lights + ", " + std::string(name_of(p.strategy)) + ", " + std::string(info(p.target).name);
-    } catch (const Error&) {
-      return {};
+      record = lights + ", " + std::string(name_of(p.strategy)) + ", " + std::string(info(p.target).name);
     }
+  } catch (const Error&) {
+    return {};
   }
-  return {};
+  const std::string words = camera_words(parts, camera);
+  return record.empty() || words.empty() ? record : record + ',' + words;
 }
 
 /// What OpenGL allows the pixel to hold, and the class of what it holds, which comes back.
@@ -187,13 +193,12 @@ Account against_account(const Question& q, const PixelHistory& history) {
 
 void explain(const ExplainOptions& options) {
   check_pipeline(options);
-  Scene scene = scene_of_options(options.scene, options.limits);
+  Scene scene = scene_of_options(options);
   Pipeline pipeline = pipeline_of(options, scene);
   const bool other_view = pipeline.view != ImageView::lit;
   pipeline.view = ImageView::lit;
   bring_to_looks(options, pipeline, ChosenLooks::by_scene, scene);
-  fit_lights_of_ours(scene, pipeline);
-  set_time(scene, options.time);
+  show(scene, options.camera, pipeline, options.time);
   if (options.x >= pipeline.width || options.y >= pipeline.height)
     throw Error(ErrorKind::usage, "--pixel",
                 std::to_string(options.x) + ',' + std::to_string(options.y) + " is not in the picture, which is " +

@@ -22,11 +22,18 @@ std::vector<uint8_t> png_of_codes(const Image& image) {
   return encode_png(image, {}, options);
 }
 
-/// The scene that is written: with all that moves at time 0, or standing still at the time that was asked for.
+/// The scene that is written: with all that moves at time 0, or standing still at the time that was asked for. A camera
+/// of the options stands still.
 Scene scene_to_write(const ExportOptions& options) {
-  Scene scene = scene_of_options(options.scene, options.limits);
+  Scene scene = scene_of_options(options);
+  const ChangedCamera camera(scene, options.camera, 1.0);
+  if (options.time) set_time(scene, *options.time);
+  if (options.camera.any()) {
+    camera.see(scene);
+    scene.camera_of_ours = false;
+    scene.timeline.camera.clear(), scene.timeline.node_camera.reset();
+  }
   if (!options.time) return scene;
-  set_time(scene, *options.time);
   const double fps = scene.timeline.fps;
   scene.timeline = Timeline();
   scene.timeline.fps = fps;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cli/camera_json.h"
 #include "cli/json_text.h"
 #include "cli/version.h"
 #include "core/threads/parallel_for.h"
@@ -52,6 +53,9 @@ Metadata metadata_of(const RenderedFrame& result) {
                        {"trueshade:pipeline", pipeline_json(result.pipeline)},
                        {"trueshade:scene", result.scene.spec},
                        {"trueshade:sceneHash", "sha256:" + result.scene_hash}};
+  if (result.parts.animation) metadata.emplace_back(kAnimationKey, *result.parts.animation);
+  if (const std::string text = camera_json(result.parts, result.camera); !text.empty())
+    metadata.emplace_back(kCameraKey, text);
   if (!result.cube_map.empty()) metadata.emplace_back("trueshade:cubeMap", result.cube_map);
   if (!result.looks.empty()) metadata.emplace_back("trueshade:looks", result.looks.substr(1));
   if (!result.execution.region.whole()) metadata.emplace_back("trueshade:region", region_text(result.execution.region));
@@ -143,6 +147,8 @@ std::string json_of(const RenderedFrame& result, std::span<const std::string> fi
   json.put_raw("execution", execution_json(result.execution, result.frame.stats.tile).text())
       .put_raw("stats", stats.text());
   json.put("hash", "sha256:" + result.image_hash);
+  if (result.parts.animation) json.put("animation", *result.parts.animation);
+  if (const std::string text = camera_json(result.parts, result.camera); !text.empty()) json.put_raw("camera", text);
   if (!result.cube_map.empty()) json.put("cube_map", result.cube_map);
   if (!result.looks.empty()) json.put("looks", result.looks.substr(1));
   if (!result.execution.region.whole()) json.put("region", region_text(result.execution.region));

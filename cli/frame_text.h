@@ -6,6 +6,7 @@
 
 #include "cli/notes.h"
 #include "core/image_files/image_io.h"
+#include "scenes/camera_changes.h"
 #include "shading/frame.h"
 
 namespace trueshade {
@@ -21,12 +22,14 @@ struct RenderedFrame {
   std::string scene_hash;           ///< 64 hex digits; empty where nobody asks
   std::vector<double> repeated_ms;  ///< the frame drawn again without planes, for a report's time per frame; ascending
   Notes notes{};
-  std::string command{};          ///< as it was given, for a report
-  std::string explain_command{};  ///< that says all of a pixel {x},{y}; or empty
+  std::string command{};                  ///< as it was given, for a report
+  std::string explain_command{};          ///< that says all of a pixel {x},{y}; or empty
   std::vector<std::string> aov_hashes{};  ///< of each aov, 64 hex digits, where their images have no texels
-  std::string cube_map{};         ///< `X,Y,Z px`, place and face, or `X,Y,Z cross`; empty: the camera's picture
-  std::string looks{};            ///< looks_text() of what the scene was brought to
-  double start_ms = 0.0;          ///< of the frame, since the process was started
+  std::string cube_map{};                 ///< `X,Y,Z px`, place and face, or `X,Y,Z cross`; empty: the camera's picture
+  std::string looks{};                    ///< looks_text() of what the scene was brought to
+  SceneParts parts{};                     ///< that the scene was made with
+  CameraChanges camera{};                 ///< that its camera was seen with
+  double start_ms = 0.0;                  ///< of the frame, since the process was started
 };
 
 /// `sha256:<hex>  <WxH>  <format>` and a line feed.

@@ -11,7 +11,6 @@
 #include "gl/emit/state_list.h"
 #include "gl/lists/frame_files.h"
 #include "gl/lists/scene_records.h"
-#include "scenes/pipeline/fit_lights.h"
 #include "scenes/scene.h"
 
 namespace trueshade {
@@ -40,11 +39,10 @@ void write_glsl(const GlslFilesOptions& asked) {
   std::optional<Scene> scene;
   if (!asked.scene.empty()) {
     check_pipeline(asked);
-    scene = scene_of_options(asked.scene, asked.limits);
-    set_time(*scene, asked.time);
+    scene = scene_of_options(asked);
   }
   const Pipeline pipeline = pipeline_of(asked, scene ? *scene : Scene{});
-  if (scene) fit_lights_of_ours(*scene, pipeline);
+  if (scene) show(*scene, asked.camera, pipeline, asked.time);
   oracle::GlslOptions options = scene ? options_of_scene(*scene) : options_without_scene(asked, pipeline);
   options.version = oracle::version_of(asked.api);
   if (asked.api == oracle::ShaderApi::es31) options.primitive = false;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -17,8 +18,8 @@
 #include "core/memory_cap.h"
 #include "core/pixel_cap.h"
 #include "core/printable_text.h"
-#include "scenes/pipeline/fit_lights.h"
 #include "scenes/scene.h"
+#include "scenes/trig.h"
 
 namespace trueshade {
 namespace {
@@ -38,6 +39,32 @@ std::string about_image(const std::string& path, uint64_t most_expansion) {
   if (!has_ending(path, ".png")) return text;
   check_png(path, most_expansion);
   return text + info_row("pixels", "read whole, all checksums right");
+}
+
+std::string angle_text(double radians) { return json_number(std::round(radians * (180.0 / kPi) * 100.0) / 100.0); }
+
+/// The cameras that --camera takes, and the animations that --animation takes, a line each.
+std::string about_parts(const Scene& scene) {
+  std::string text;
+  const auto add = [&text](const char* kind, size_t number, const std::string& name, const std::string& about) {
+    text +=
+        info_row(kind + std::string(" ") + std::to_string(number), name.empty() ? about : name + " (" + about + ')');
+  };
+  for (size_t i = 0; i < scene.cameras.size(); ++i) {
+    const SceneCamera& camera = scene.cameras[i];
+    add("camera", i, camera.name.empty() ? camera.node : camera.name,
+        camera.fov_y_rad > 0.0 ? "perspective, " + angle_text(camera.fov_y_rad) + " degrees" : "orthographic");
+  }
+  const Camera& own = scene.camera;
+  if (scene.cameras.empty())
+    add("camera", 0, "",
+        scene.camera_of_ours  ? "made to see all, because the file has none"
+        : own.clip_from_world ? "a matrix"
+                              : "perspective, " + angle_text(double(own.fov_x_rad.value_or(own.fov_y_rad))) +
+                                    (own.fov_x_rad ? " degrees across" : " degrees"));
+  for (size_t i = 0; i < scene.animations.size(); ++i)
+    add("animation", i, scene.animations[i].name, json_number(scene.animations[i].seconds) + " seconds");
+  return text;
 }
 
 std::string about_scene(const std::string& spec, const Limits& limits) {
@@ -64,6 +91,7 @@ std::string about_scene(const std::string& spec, const Limits& limits) {
          info_row("instances", std::to_string(scene.instances.size())) +
          info_row("triangles drawn", std::to_string(scene.triangle_count())) +
          info_row("lights", std::to_string(scene.lights.size()) + (kinds.empty() ? "" : " (" + kinds + ')')) +
+         about_parts(scene) +
          (scene.timeline.empty() ? "" : info_row("moves", json_number(scene.timeline.fps) + " frames a second")) +
          (scene.pipeline_text.empty() ? "" : info_row("pipeline", scene.pipeline_text));
 }
@@ -116,10 +144,9 @@ void write_resolved(const Scene& scene, const Pipeline& pipeline, double time, c
 
 void resolve(const InfoOptions& options) {
   check_pipeline(options);
-  Scene scene = scene_of_options(options.file, options.limits);
+  Scene scene = scene_of_options(options);
   const Pipeline pipeline = pipeline_of(options, scene);
-  fit_lights_of_ours(scene, pipeline);
-  set_time(scene, options.time);
+  show(scene, options.camera, pipeline, options.time);
   if (options.folder.empty())
     print_resolved(scene, pipeline, options.time);
   else

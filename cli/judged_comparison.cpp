@@ -4,6 +4,7 @@
 #include <charconv>
 #include <optional>
 
+#include "cli/camera_json.h"
 #include "cli/capture/captured_planes.h"
 #include "cli/capture/stored_planes.h"
 #include "cli/looks.h"
@@ -13,7 +14,6 @@
 #include "cli/shell_words.h"
 #include "core/error.h"
 #include "core/file_ending.h"
-#include "scenes/pipeline/fit_lights.h"
 #include "scenes/pipeline/light_model.h"
 #include "scenes/pipeline/presets.h"
 #include "scenes/pipeline/shipped_models.h"
@@ -42,12 +42,13 @@ Error not_judged(const std::string& reason) {
 
 /// The scene that a reference names. No word of a file that is no scene is repeated: whoever made the reference has
 /// chosen the file.
-Scene named_scene(const std::string& name, const std::string& reference, const Limits& limits) {
+Scene named_scene(const std::string& name, const std::string& reference, const Limits& limits,
+                  const SceneParts& parts) {
   const bool is_built_in = name.starts_with("builtin:");
   const std::optional<std::string> file = is_built_in ? name : file_named_by(reference, name);
   if (!file) throw not_judged("there is no " + name + " in the folder where the command runs, nor in its own");
   try {
-    return scene_of_options(*file, limits);
+    return scene_of_options(*file, limits, parts);
   } catch (const Error& error) {
     if (is_built_in || error.kind() == ErrorKind::limit) throw;
     throw not_judged(*file + " is no scene that can be drawn (`trueshade info` says why)");
@@ -73,8 +74,9 @@ class SceneJudge {
     v_.is_diagnosed = v_.verdict.violations() > 0 || v_.verdict.convicted();
     if (v_.is_diagnosed) find_explanation(scene_, v_);
     for (oracle::Finding& finding : v_.findings)
-      finding.command = "trueshade validate " + for_shell(scene_.spec) + " --gbuffer PLANES.exr --image " +
-                        for_shell(pictures_.test.path) + mask_words() + " --suppose " + finding.name;
+      finding.command = "trueshade validate " + for_shell(scene_.spec) + camera_words_ +
+                        " --gbuffer PLANES.exr --image " + for_shell(pictures_.test.path) + mask_words() +
+                        " --suppose " + finding.name;
     return std::move(v_);
   }
 
@@ -91,7 +93,13 @@ class SceneJudge {
                              *const hash = metadata_value(pictures_.reference, "trueshade:sceneHash"),
                              *const pipeline = metadata_value(pictures_.reference, "trueshade:pipeline");
     if (hash == nullptr || pipeline == nullptr) throw not_judged("its hash or its pipeline is not named");
-    scene_ = named_scene(*spec, pictures_.reference.path, options_.limits);
+    SceneParts parts;
+    CameraChanges camera;
+    if (const std::string* const text = metadata_value(pictures_.reference, kAnimationKey)) parts.animation = *text;
+    if (const std::string* const text = metadata_value(pictures_.reference, kCameraKey))
+      read_camera_json(*text, "the reference's camera", parts, camera);
+    camera_words_ = camera_words(parts, camera);
+    scene_ = named_scene(*spec, pictures_.reference.path, options_.limits, parts);
     v_.pipeline = pipeline_from_json(*pipeline, "the reference's pipeline", default_pipeline(scene_));
     try {
       give_text(v_.pipeline.light_program);
@@ -100,10 +108,9 @@ class SceneJudge {
     }
     validate(v_.pipeline);
     bring_to_reference_looks();
-    fit_lights_of_ours(scene_, v_.pipeline);
+    show(scene_, camera, v_.pipeline, time_of(pictures_.reference));
     if ("sha256:" + scene_hash(scene_) != *hash)
       throw not_judged(scene_.spec + " is another scene today: its hash is not the one that the reference names");
-    set_time(scene_, time_of(pictures_.reference));
     if (v_.pipeline.view != ImageView::lit || v_.pipeline.post.active())
       throw not_judged("a view, and a picture behind a post chain, have no legal sets");
     if (v_.pipeline.light_program.used() && v_.pipeline.light_program.text.empty())
@@ -173,6 +180,7 @@ class SceneJudge {
   const ComparedPictures& pictures_;
   const CompareOptions& options_;
   Scene scene_;
+  std::string camera_words_;  // the options that say how the reference is seen
   Validation v_;
 };
 

@@ -89,6 +89,7 @@ CommandTable validate_table(ValidationOptions& options, ValidationTexts& texts) 
       .known_values = fault_names();
   add_size(table, texts.size);
   add_time(table, texts.time);
+  add_camera(table, texts.camera);
   add_layers(table, options);
   add_light_program(table, options);
   add_strategy(table, texts.strategy);
@@ -185,6 +186,7 @@ CommandTable bench_table(BenchOptions& options, BenchTexts& texts) {
   add_value(table, "--frames", "FIRST-LAST", texts.frames,
             "With --ranks share frames of the timeline, not bands of one picture");
   add_size(table, texts.size);
+  add_camera(table, texts.camera);
   add_layers(table, options);
   add_strategy(table, texts.strategy);
   add_light_program(table, options);

@@ -40,6 +40,8 @@ void check_raw_video(const RenderOptions& options) {
 }
 
 void check_cube_map(const RenderOptions& options) {
+  if (options.turntable)
+    throw usage("--turntable", "the faces of a cube map see to all sides from one place", "leave out one of the two");
   for (const std::string& path : options.outputs)
     if (has_ending(path, ".html"))
       throw usage("--cube-map", "a report shows the camera's picture", "end the names after -o in .png or .exr");
@@ -83,10 +85,36 @@ void check_outputs(const RenderOptions& options) {
         "it chooses how a PNG stores the picture, and no -o names a PNG: an EXR holds the target's values, and a "
         "report shows them as screens take them",
         "add -o FILE.png, or leave out --encode");
-  if (options.frames) check_frame_names(options.outputs, *options.frames);
+  if (const auto numbered = options.numbered()) check_frame_names(options.outputs, *numbered);
 }
 
 void check_capture(const CaptureOptions& options) { check_named_once("--gbuffer", options.gbuffer_files); }
+
+}  // namespace
+
+std::string CameraTexts::given() const {
+  for (const auto& [name, text] : {std::pair{"--camera", &camera},
+                                   {"--orbit", &orbit},
+                                   {"--eye", &eye},
+                                   {"--look-at", &look_at},
+                                   {"--fov", &fov},
+                                   {"--animation", &animation}})
+    if (*text) return name;
+  return {};
+}
+
+namespace {
+
+void set_camera(const CameraTexts& texts, SceneOptions& options) {
+  options.parts = {texts.camera, texts.animation};
+  CameraChanges& camera = options.camera;
+  if (texts.orbit && texts.eye)
+    throw usage("--eye", "--orbit and --eye both say where the camera is", "leave out one of the two");
+  if (texts.orbit) camera.orbit = orbit_from_text(*texts.orbit);
+  if (texts.eye) camera.eye = world_place_from_text("--eye", *texts.eye);
+  if (texts.look_at) camera.target = world_place_from_text("--look-at", *texts.look_at);
+  if (texts.fov) camera.fov_y_deg = fov_from_text(*texts.fov);
+}
 
 }  // namespace
 
@@ -106,6 +134,11 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   if (texts.time && texts.frames) throw usage("--frames", "--time and --frames exclude each other", "give one of them");
   if (texts.time) options.time = time_from_text(*texts.time);
   if (texts.frames) options.frames = frames_from_text(*texts.frames);
+  if (texts.turntable && texts.frames)
+    throw usage("--turntable", "--turntable and --frames both number the pictures",
+                "leave out one of them; --time says when a turntable is seen");
+  if (texts.turntable) options.turntable = integer_in("--turntable", *texts.turntable, 1, kMostFrames);
+  set_camera(texts.camera, options);
   if (texts.target) options.target = target_from_text("--target", *texts.target);
   if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
   if (texts.profile) options.profile = profile_from_text(*texts.profile);
@@ -131,11 +164,13 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
 }
 
 InfoOptions finished(InfoOptions options, const InfoTexts& texts) {
+  const std::string camera = texts.camera.given();
   const std::pair<const char*, bool> given[] = {
       {"--preset", options.preset.has_value()},   {"--pipeline", options.pipeline_file.has_value()},
       {"--size", texts.size.has_value()},         {"--target", texts.target.has_value()},
       {"--strategy", texts.strategy.has_value()}, {"--profile", texts.profile.has_value()},
-      {"--time", texts.time.has_value()},         {"-o", texts.folder.has_value()}};
+      {"--time", texts.time.has_value()},         {"-o", texts.folder.has_value()},
+      {camera.c_str(), !camera.empty()}};
   for (const auto& [name, is_given] : given)
     if (is_given && !options.resolved)
       throw usage(name, "only a scene's numbers as the renderer has them depend on it", "add --resolved");
@@ -149,6 +184,7 @@ InfoOptions finished(InfoOptions options, const InfoTexts& texts) {
   if (texts.profile) options.profile = profile_from_text(*texts.profile);
   if (texts.time) options.time = time_from_text(*texts.time);
   options.folder = texts.folder.value_or("");
+  set_camera(texts.camera, options);
   return options;
 }
 
@@ -159,6 +195,9 @@ GlslFilesOptions finished(GlslFilesOptions options, const GlslTexts& texts) {
   if (!options.scene.empty() && options.maps)
     throw usage("--maps", "the scene's materials say which maps there are", "leave out --maps or the scene");
   if (options.scene.empty() && texts.time) throw usage("--time", "there is no scene", "name one, or leave out --time");
+  if (const std::string given = texts.camera.given(); options.scene.empty() && !given.empty())
+    throw usage(given, "there is no scene", "name one, or leave out " + given);
+  set_camera(texts.camera, options);
   if (texts.size) options.size = size_from_text(*texts.size);
   if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
   if (texts.time) options.time = time_from_text(*texts.time);
@@ -171,9 +210,10 @@ GlslFilesOptions finished(GlslFilesOptions options, const GlslTexts& texts) {
   return options;
 }
 
-ExportOptions finished(ExportOptions options, const std::optional<std::string>& time) {
+ExportOptions finished(ExportOptions options, const ExportTexts& texts) {
   check_scene(options.scene);
-  if (time) options.time = time_from_text(*time);
+  if (texts.time) options.time = time_from_text(*texts.time);
+  set_camera(texts.camera, options);
   if (options.output != "-" && !has_ending(options.output, ".glb"))
     throw usage("-o", "a scene is not written to '" + options.output + "'",
                 "end the name in .glb, or - for standard output");
@@ -200,6 +240,7 @@ ProbeOptions finished(ProbeOptions options) {
 
 ValidationOptions finished(ValidationOptions options, const ValidationTexts& texts) {
   check_looks(options.looks);
+  set_camera(texts.camera, options);
   options.mask = mask_rules_of(texts.mask);
   if (texts.size) options.size = size_from_text(*texts.size);
   if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
@@ -230,6 +271,7 @@ ValidationOptions finished(ValidationOptions options, const ValidationTexts& tex
 }
 
 ShadeOptions finished(ShadeOptions options, const ShadeTexts& texts) {
+  set_camera(texts.camera, options);
   for (std::string& path : options.outputs) path = output_with_ending(path);
   check_standard_output(options.outputs, printing_option(options));
   if (texts.time) options.time = time_from_text(*texts.time);
@@ -252,6 +294,7 @@ ShadeOptions finished(ShadeOptions options, const ShadeTexts& texts) {
 
 ExplainOptions finished(ExplainOptions options, const ExplainTexts& texts) {
   check_looks(options.looks);
+  set_camera(texts.camera, options);
   if (texts.size) options.size = size_from_text(*texts.size);
   if (texts.time) options.time = time_from_text(*texts.time);
   if (texts.target) options.target = target_from_text("--target", *texts.target);
@@ -266,6 +309,7 @@ ExplainOptions finished(ExplainOptions options, const ExplainTexts& texts) {
 }
 
 BenchOptions finished(BenchOptions options, const BenchTexts& texts) {
+  set_camera(texts.camera, options);
   if (options.scenes.empty()) {
     options.scenes = {"builtin:city"};
     if (!options.ranks)
@@ -293,6 +337,7 @@ BenchOptions finished(BenchOptions options, const BenchTexts& texts) {
 
 ViewOptions finished(ViewOptions options, const ViewTexts& texts) {
   check_looks(options.looks);
+  set_camera(texts.camera, options);
   if (texts.size) options.size = size_from_text(*texts.size);
   if (texts.time) options.time = time_from_text(*texts.time);
   if (texts.target) options.target = target_from_text("--target", *texts.target);

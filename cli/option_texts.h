@@ -8,20 +8,37 @@
 
 namespace trueshade {
 
+/// Of all that show a scene: which camera, and which animation.
+struct CameraTexts {
+  std::optional<std::string> camera, orbit, eye, look_at, fov, animation;
+
+  /// The first of them that is given, with its dashes; empty: none is.
+  std::string given() const;
+};
+
 /// Of render.
 struct RenderTexts {
+  CameraTexts camera;
   std::optional<std::string> size, time, frames, target, strategy, profile, view, aov, encode, threads, tile, cube_map,
-      region, lost_after;
+      region, lost_after, turntable;
   bool no_light_culling = false, cube_cross = false;
 };
 
 /// Of info.
 struct InfoTexts {
+  CameraTexts camera;
   std::optional<std::string> size, target, strategy, profile, time, folder;
+};
+
+/// Of export.
+struct ExportTexts {
+  CameraTexts camera;
+  std::optional<std::string> time;
 };
 
 /// Of glsl.
 struct GlslTexts {
+  CameraTexts camera;
   std::optional<std::string> api, size, strategy, time;
 };
 
@@ -34,27 +51,32 @@ struct MaskTexts {
 
 /// Of validate.
 struct ValidationTexts {
+  CameraTexts camera;
   MaskTexts mask;
   std::optional<std::string> size, subpixel_bits, strategy, time, significance;
 };
 
 /// Of shade.
 struct ShadeTexts {
+  CameraTexts camera;
   std::optional<std::string> time, target, strategy, profile, threads;
 };
 
 /// Of explain.
 struct ExplainTexts {
+  CameraTexts camera;
   std::optional<std::string> size, pixel, time, target, strategy, profile;
 };
 
 /// Of bench.
 struct BenchTexts {
+  CameraTexts camera;
   std::optional<std::string> size, strategy, threads, against, frames;
 };
 
 /// Of view.
 struct ViewTexts {
+  CameraTexts camera;
   std::optional<std::string> size, time, target, strategy, profile, view, threads, scale;
 };
 
@@ -80,7 +102,7 @@ void check_named_once(const std::string& option, std::vector<std::string> files)
 RenderOptions finished(RenderOptions options, const RenderTexts& texts);
 InfoOptions finished(InfoOptions options, const InfoTexts& texts);
 GlslFilesOptions finished(GlslFilesOptions options, const GlslTexts& texts);
-ExportOptions finished(ExportOptions options, const std::optional<std::string>& time);
+ExportOptions finished(ExportOptions options, const ExportTexts& texts);
 ValidationOptions finished(ValidationOptions options, const ValidationTexts& texts);
 ProbeOptions finished(ProbeOptions options);
 ShadeOptions finished(ShadeOptions options, const ShadeTexts& texts);

@@ -91,19 +91,61 @@ PixelPlace place_from_text(const std::string& option, const std::string& text) {
 
 std::optional<glm::vec3> cube_eye_from_text(const std::string& text) {
   if (text == "eye") return std::nullopt;
+  return world_place_from_text("--cube-map", text, ", or eye for the camera's");
+}
+
+glm::vec3 world_place_from_text(const std::string& option, const std::string& text, const std::string& or_else) {
   constexpr float kFarthest = 1e9f;
-  glm::vec3 eye{0.0f};
+  glm::vec3 place{0.0f};
   const char *at = text.data(), *const end = at + text.size();
   for (int axis = 0; axis < 3; ++axis) {
     const bool begins = axis == 0 || (at != end && *at++ == ',');
-    const auto [after, error] = std::from_chars(at, end, eye[axis]);
-    if (!begins || error != std::errc() || !(eye[axis] >= -kFarthest && eye[axis] <= kFarthest))
-      throw usage("--cube-map", "'" + text + "' is no place within 1e9 of the origin",
-                  "give X,Y,Z in the world, like 0,1.5,-2, or eye for the camera's");
+    const auto [after, error] = std::from_chars(at, end, place[axis]);
+    if (!begins || error != std::errc() || !(place[axis] >= -kFarthest && place[axis] <= kFarthest))
+      throw usage(option, "'" + text + "' is no place within 1e9 of the origin",
+                  "give X,Y,Z in the world, like 0,1.5,-2" + or_else);
     at = after;
   }
-  if (at != end) throw usage("--cube-map", "'" + text + "' has more than three numbers", "give X,Y,Z, or eye");
-  return eye;
+  if (at != end) throw usage(option, "'" + text + "' has more than three numbers", "give X,Y,Z" + or_else);
+  return place;
+}
+
+OrbitPlace orbit_from_text(const std::string& text) {
+  constexpr double kMostTurn = 36000.0, kMostDistance = 1e17;
+  const std::string form =
+      "give AZIMUTH,ELEVATION in degrees, like 30,20, and if need be a distance behind them: "
+      "30,20,150% of the one that frames all, or 30,20,2.5 in scene units";
+  OrbitPlace place;
+  const char *at = text.data(), *const end = at + text.size();
+  int count = 0;
+  for (double* const value : {&place.azimuth_deg, &place.elevation_deg, &place.distance}) {
+    if (count == 2 && at == end) break;
+    const bool begins = count == 0 || (at != end && *at++ == ',');
+    const auto [after, error] = std::from_chars(at, end, *value);
+    if (!begins || error != std::errc()) throw usage("--orbit", "'" + text + "' is no place on an orbit", form);
+    at = after, ++count;
+  }
+  if (count == 3) {
+    place.unit = at != end && *at == '%' ? DistanceUnit::percent : DistanceUnit::scene_units;
+    at += place.unit == DistanceUnit::percent ? 1 : 0;
+  }
+  if (at != end) throw usage("--orbit", "'" + text + "' is no place on an orbit", form);
+  if (!(place.azimuth_deg >= -kMostTurn && place.azimuth_deg <= kMostTurn))
+    throw usage("--orbit", "the azimuth of '" + text + "' is not within 36000 degrees", form);
+  if (!(place.elevation_deg >= -90.0 && place.elevation_deg <= 90.0))
+    throw usage("--orbit", "the elevation of '" + text + "' is not from -90 to 90 degrees", form);
+  if (!(place.distance > 0.0 && place.distance <= kMostDistance))
+    throw usage("--orbit", "the distance of '" + text + "' is not above 0 and at most 1e17", form);
+  return place;
+}
+
+double fov_from_text(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !(value >= 0.001 && value <= 179.99))
+    throw usage("--fov", "'" + text + "' is no angle from 0.001 to 179.99 degrees",
+                "give that from the picture's lower edge to its upper one, like 45");
+  return value;
 }
 
 double time_from_text(const std::string& text) {
@@ -124,7 +166,6 @@ double chance_from_text(const std::string& option, const std::string& text) {
 }
 
 FrameRange frames_from_text(const std::string& text) {
-  constexpr int64_t kMostFrames = 1000000;
   const size_t dash = text.find('-');
   const auto first = integer(std::string_view(text).substr(0, dash));
   const auto last = dash == std::string::npos ? first : integer(std::string_view(text).substr(dash + 1));
@@ -152,6 +193,9 @@ std::vector<std::string_view> target_names() {
 }
 
 Format target_from_text(const std::string& option, const std::string& text) {
+  if (text.find(',') != std::string::npos)
+    throw usage(option, "'" + text + "' is no format that a picture is stored in",
+                "a place that the camera looks at is --look-at X,Y,Z");
   const std::optional<Format> format = format_from_name(text);
   if (!format || std::find(std::begin(kTargetFormats), std::end(kTargetFormats), *format) == std::end(kTargetFormats))
     throw unknown_name(option, "there is no target", text, target_names());

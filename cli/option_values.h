@@ -16,10 +16,11 @@ int integer_in(const std::string& option, const std::string& text, int least, in
 int tile_from_text(const std::string& option, const std::string& text);
 Size size_from_text(const std::string& text, int most = kMostDrawnSide);
 std::chrono::seconds lost_after_from_text(const std::string& text);  ///< of --lost-after
-PictureRegion region_from_text(const std::string& text);  ///< of `X,Y,WxH`
+PictureRegion region_from_text(const std::string& text);             ///< of `X,Y,WxH`
 double time_from_text(const std::string& text);
 /// Above 0 and at most 0.01.
 double chance_from_text(const std::string& option, const std::string& text);
+inline constexpr int kMostFrames = 1000000;
 FrameRange frames_from_text(const std::string& text);
 NumericProfile profile_from_text(const std::string& text);
 ImageView view_from_text(const std::string& option, const std::string& text);
@@ -45,7 +46,7 @@ Variant variant_from_text(const std::string& text);
 
 // Names that values may have, for completions and suggestions.
 inline constexpr std::string_view kDriverNames[] = {"default", "llvmpipe", "softpipe",
-                                                   "vulkan", "lavapipe", "swiftshader"};
+                                                    "vulkan",  "lavapipe", "swiftshader"};
 inline constexpr std::string_view kEncodingNames[] = {"srgb", "raw"}, kColorSpaceNames[] = {"srgb", "linear"};
 inline constexpr std::string_view kRowOrders[] = {"top_down", "bottom_up"};
 inline constexpr std::string_view kSimdNames[] = {"best", "avx512", "avx2", "sse4", "scalar"};
@@ -53,7 +54,11 @@ inline constexpr std::string_view kShellNames[] = {"bash", "zsh", "fish"};
 inline constexpr std::string_view kTileSides[] = {"8", "16", "32", "48", "64"};
 std::vector<std::string_view> preset_names();
 
-/// `1.5,0,-2`, a place in the world; nothing of `eye`.
+/// `1.5,0,-2`, a place in the world within 1e9 of its origin. `or_else`: what the option takes besides, for the error.
+glm::vec3 world_place_from_text(const std::string& option, const std::string& text, const std::string& or_else = "");
+OrbitPlace orbit_from_text(const std::string& text);  ///< of `30,20`, `30,20,2.5` or `30,20,150%`
+double fov_from_text(const std::string& text);        ///< degrees
+/// The same; nothing of `eye`.
 std::optional<glm::vec3> cube_eye_from_text(const std::string& text);
 
 void check_scene(const std::string& scene);

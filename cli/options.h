@@ -11,6 +11,7 @@
 #include "core/image_files/image_io.h"
 #include "farm/task_sharing.h"
 #include "gl/emit/glsl_terms.h"
+#include "scenes/camera_changes.h"
 #include "scenes/pipeline/pipeline.h"
 
 namespace trueshade {
@@ -48,9 +49,15 @@ struct Looks {
   std::optional<std::string> samples, background, lights, exposure, tone_map;
 };
 
+/// A scene, as it is seen.
+struct SceneOptions : LimitedOptions {
+  std::string scene;  ///< a file or builtin:NAME
+  SceneParts parts;
+  CameraChanges camera;
+};
+
 /// What is drawn. What is absent keeps the value of the layer below: preset, scene file, pipeline file.
-struct PipelineOptions : LimitedOptions {
-  std::string scene;                  ///< a file or builtin:NAME
+struct PipelineOptions : SceneOptions {
   std::optional<std::string> preset;  ///< the lowest layer; nothing: the first row of presets()
   std::optional<std::string> pipeline_file;
   std::optional<std::string> light_shader;    ///< a light program's file, or a model that ships
@@ -76,6 +83,7 @@ struct RenderOptions : PipelineOptions {
   std::vector<std::string> outputs;  ///< .png, .exr or .html; with `frames`, names from frame_name(); - for raw video
   double time = 0.0;                 ///< seconds; not read where there are frames
   std::optional<FrameRange> frames;
+  std::optional<int> turntable;  ///< so many pictures around the scene; not beside `frames`
   std::optional<CubeMapOptions> cube_map;
   bool raw_video = false;             ///< the codes of every picture on standard output, one after the other
   std::optional<PngEncoding> encode;  ///< of .png outputs; nothing: as the target's values are
@@ -85,6 +93,11 @@ struct RenderOptions : PipelineOptions {
   SharingRules sharing;  ///< of frames and bands, by ranks that MPI has started
   bool hash = false, stats = false, json = false;
   bool resume = false;  ///< a large picture goes on where an earlier process has stopped
+
+  /// Of pictures whose names hold numbers: frames, or pictures of a turntable. Nothing: there is one picture.
+  std::optional<FrameRange> numbered() const {
+    return turntable ? std::optional(FrameRange{0, *turntable - 1}) : frames;
+  }
 };
 
 /// `trueshade shade`: of RenderOptions without frames, planes, views and statistics. `scene` has the lights.
@@ -104,8 +117,7 @@ struct InfoOptions : PipelineOptions {  // which `resolved` alone reads
 };
 
 /// `trueshade export`
-struct ExportOptions : LimitedOptions {
-  std::string scene;           ///< a file or builtin:NAME
+struct ExportOptions : SceneOptions {
   std::string output;          ///< .glb, or - for standard output
   std::optional<double> time;  ///< seconds; nothing: the scene with all that moves
 };

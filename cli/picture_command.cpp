@@ -19,17 +19,18 @@ Error left_out(const std::string& what) {
 
 }  // namespace
 
-Scene scene_of_options(const std::string& spec, const Limits& limits) {
+Scene scene_of_options(const std::string& spec, const Limits& limits, const SceneParts& parts) {
   constexpr std::string_view kBuiltin = "builtin:";
   if (!spec.starts_with(kBuiltin)) throw left_out("it draws built-in scenes alone");
   const Activity activity("making the scene");
   const FpScope fp;
+  if (parts != SceneParts{}) throw left_out("it chooses neither cameras nor animations");
   return builtin_scene(std::string_view(spec).substr(kBuiltin.size()), limits);
 }
 
-CachedScene cached_scene_of_options(const std::string& spec, const Limits& limits) {
+CachedScene cached_scene_of_options(const std::string& spec, const Limits& limits, const SceneParts& parts) {
   if (limits.cache) throw left_out("it has no cache files");
-  return {scene_of_options(spec, limits), nullptr, {}};
+  return {scene_of_options(spec, limits, parts), nullptr, {}};
 }
 
 std::vector<std::string> fault_names() { return {}; }

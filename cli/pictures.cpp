@@ -13,6 +13,7 @@
 #include "cli/picture_encoding.h"
 #include "cli/picture_notes.h"
 #include "cli/picture_output.h"
+#include "cli/preparation.h"
 #include "cli/progress_bar.h"
 #include "cli/raw_video.h"
 #include "cli/report.h"
@@ -88,14 +89,16 @@ void make_files(const RenderOptions& options, const std::vector<std::string>& pa
 }
 
 /// A frame of a scene as it stands, not drawn yet.
-RenderedFrame frame_at(const RenderOptions& options, const Scene& scene, const Pipeline& pipeline, double time) {
+RenderedFrame frame_at(const RenderOptions& options, const CameraChanges& camera, const Scene& scene,
+                       const Pipeline& pipeline, double time) {
   RenderedFrame result{scene, pipeline, execution_of(options), time, {}, {}, {}, {}};
+  result.parts = options.parts, result.camera = camera;
   result.notes = notes_of(scene, pipeline);
   result.looks = looks_text(options.looks);
   if (!options.command_line.empty()) result.command = "trueshade" + options.command_line;
   // Not of a view, which shows planes, and not where there is no scene by that name to explain.
   if (!options.scene.empty() && pipeline.view == ImageView::lit)
-    result.explain_command = explain_command(options, pipeline, time, {});
+    result.explain_command = explain_command(options, camera, pipeline, time, {});
   if (std::string note = encoding_note(options, pipeline); !note.empty()) result.notes.lines.push_back(std::move(note));
   return result;
 }
@@ -160,21 +163,26 @@ std::vector<std::string> planes_to_render(const RenderOptions& options) {
   return planes;
 }
 
-void Pictures::go_to(double time) {
-  set_time(scene_, time);
+Pictures::Pictures(const RenderOptions& options, CachedScene& cached, const Pipeline& pipeline,
+                   const Execution& execution)
+    : options_(options), scene_(cached.scene), pipeline_(pipeline), execution_(execution) {
+  std::vector<CameraChanges> changes{options.camera};
+  if (options.turntable) changes = turntable(scene_, options.camera, *options.turntable, aspect_of(pipeline));
+  for (const CameraChanges& one : changes) seen_.push_back({one, camera_of(scene_, one, pipeline)});
+  if (cached.clusters) prepared_.emplace(scene_, std::move(cached.clusters));
+}
+
+void Pictures::go_to(std::optional<int> frame) {
+  set_time(scene_, time_of(frame));
+  seen_of(frame).camera.see(scene_);
   if (prepared_)
     prepared_->update();
   else
     prepared_.emplace(scene_);
 }
 
-void Pictures::at_time(double time, const std::vector<std::string>& paths, PictureSink& sink,
-                       const ProgressSeen& seen) {
-  go_to(time);
-  if (options_.cube_map) return cube_map(time, paths, sink, seen);
-  RenderedFrame result = frame_at(options_, scene_, pipeline_, time);
-  draw(options_, *prepared_, execution_, seen, result);
-  hand_out(options_, paths, result, sink);
+RenderedFrame Pictures::result_of(std::optional<int> frame) const {
+  return frame_at(options_, seen_of(frame).changes, scene_, pipeline_, time_of(frame));
 }
 
 std::vector<std::string> Pictures::outputs_of(std::optional<int> frame) const {
@@ -186,11 +194,17 @@ std::vector<std::string> Pictures::outputs_of(std::optional<int> frame) const {
 }
 
 double Pictures::time_of(std::optional<int> frame) const {
-  return frame ? double(*frame) / scene_.timeline.fps : options_.time;
+  return frame && !options_.turntable ? double(*frame) / scene_.timeline.fps : options_.time;
 }
 
 void Pictures::picture(std::optional<int> frame, PictureSink& sink, const ProgressSeen& seen) {
-  if (!is_streamed(options_, pipeline_)) return at_time(time_of(frame), outputs_of(frame), sink, seen);
+  if (!is_streamed(options_, pipeline_)) {
+    go_to(frame);
+    if (options_.cube_map) return cube_map(frame, sink, seen);
+    RenderedFrame result = result_of(frame);
+    draw(options_, *prepared_, execution_, seen, result);
+    return hand_out(options_, outputs_of(frame), result, sink);
+  }
   BandedPicture& banded = in_bands(frame, 0);
   if (has_constants(pipeline_)) banded.set_constants(picture_constants(*prepared_, pipeline_, execution_));
   banded.begin();
@@ -203,13 +217,13 @@ void Pictures::picture(std::optional<int> frame, PictureSink& sink, const Progre
 }
 
 PictureMeasurement Pictures::measurement(std::optional<int> frame) {
-  go_to(time_of(frame));
+  go_to(frame);
   return {*prepared_, pipeline_};
 }
 
 BandedPicture& Pictures::in_bands(std::optional<int> frame, int band_rows) {
-  go_to(time_of(frame));
-  RenderedFrame result = frame_at(options_, scene_, pipeline_, time_of(frame));
+  go_to(frame);
+  RenderedFrame result = result_of(frame);
   result.scene_hash = scene_hash(scene_);
   return banded_.emplace(options_, *prepared_, execution_, std::move(result), outputs_of(frame), band_rows);
 }
@@ -222,15 +236,15 @@ void Pictures::hand_out_bands(std::optional<int> frame, PictureSink& sink) {
     hand_out(options_, outputs_of(frame), result, sink);
 }
 
-void Pictures::cube_map(double time, const std::vector<std::string>& paths, PictureSink& sink,
-                        const ProgressSeen& seen) {
+void Pictures::cube_map(std::optional<int> frame, PictureSink& sink, const ProgressSeen& seen) {
+  const std::vector<std::string> paths = outputs_of(frame);
   const Camera camera = scene_.camera;
   const glm::vec3 eye = options_.cube_map->eye.value_or(camera.eye);
   Frame cross;
   for (size_t i = 0; i < std::size(kCubeFaceNames); ++i) {
     const CubeFace face = CubeFace(i);
     scene_.camera = cube_face_camera(camera, eye, face);
-    RenderedFrame result = frame_at(options_, scene_, pipeline_, time);
+    RenderedFrame result = result_of(frame);
     result.cube_map = cube_map_text(eye, kCubeFaceNames[i]);
     result.explain_command.clear();  // no option of explain places the camera
     draw(options_, *prepared_, execution_, seen, result);
@@ -244,7 +258,7 @@ void Pictures::cube_map(double time, const std::vector<std::string>& paths, Pict
   }
   scene_.camera = camera;
   if (!options_.cube_map->cross) return;
-  RenderedFrame result = frame_at(options_, scene_, pipeline_, time);
+  RenderedFrame result = result_of(frame);
   result.cube_map = cube_map_text(eye, "cross");
   result.frame = std::move(cross);
   hand_out(options_, paths, result, sink);

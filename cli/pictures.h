@@ -26,16 +26,14 @@ std::vector<std::string> planes_to_render(const RenderOptions& options);
 class Pictures {
  public:
   /// `execution`: how the pictures are drawn. The JSON documents state the execution of the options instead.
-  Pictures(const RenderOptions& options, CachedScene& cached, const Pipeline& pipeline, const Execution& execution)
-      : options_(options), scene_(cached.scene), pipeline_(pipeline), execution_(execution) {
-    if (cached.clusters) prepared_.emplace(scene_, std::move(cached.clusters));
-  }
+  /// The scene is as it was loaded.
+  Pictures(const RenderOptions& options, CachedScene& cached, const Pipeline& pipeline, const Execution& execution);
 
-  /// Makes the picture, or the cube map, of a frame of the timeline, whose number goes into the names of the outputs;
-  /// or with nothing that of the options' time.
+  /// Makes the picture, or the cube map, of a frame of the timeline or of a turntable, whose number goes into the names
+  /// of the outputs; or with nothing that of the options' time.
   void picture(std::optional<int> frame, PictureSink& sink, const ProgressSeen& seen = {});
 
-  /// The outputs of a frame of the timeline, or with nothing those of the picture that there is.
+  /// The outputs of a frame, or with nothing those of the picture that there is.
   std::vector<std::string> outputs_of(std::optional<int> frame) const;
   /// Seconds.
   double time_of(std::optional<int> frame) const;
@@ -48,14 +46,22 @@ class Pictures {
   void hand_out_bands(std::optional<int> frame, PictureSink& sink);
 
  private:
-  void go_to(double time);
-  void at_time(double time, const std::vector<std::string>& paths, PictureSink& sink, const ProgressSeen& seen);
-  void cube_map(double time, const std::vector<std::string>& paths, PictureSink& sink, const ProgressSeen& seen);
+  /// How a picture is seen, and the camera that this makes.
+  struct Seen {
+    CameraChanges changes;
+    ChangedCamera camera;
+  };
+
+  const Seen& seen_of(std::optional<int> frame) const { return seen_[options_.turntable ? size_t(*frame) : 0]; }
+  void go_to(std::optional<int> frame);
+  RenderedFrame result_of(std::optional<int> frame) const;
+  void cube_map(std::optional<int> frame, PictureSink& sink, const ProgressSeen& seen);
 
   const RenderOptions& options_;
   Scene& scene_;
   const Pipeline& pipeline_;
   const Execution execution_;
+  std::vector<Seen> seen_;                 // one, or one a picture of a turntable
   std::optional<PreparedScene> prepared_;  // from the first picture on, or with the clusters of a cache file
   std::optional<BandedPicture> banded_;
 };

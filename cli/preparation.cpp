@@ -14,6 +14,7 @@
 #include "core/standard_input.h"
 #include "scenes/files/content/scene_files.h"
 #include "scenes/json/json_value.h"
+#include "scenes/pipeline/fit_lights.h"
 #include "scenes/pipeline/presets.h"
 #include "scenes/pipeline/program_inputs.h"
 #include "scenes/pipeline/shipped_models.h"
@@ -41,6 +42,23 @@ void check_pipeline(const PipelineOptions& options) {
   } else if (options.pipeline_file) {
     json::parse(text_of(*options.pipeline_file), *options.pipeline_file);
   }
+}
+
+Scene scene_of_options(const SceneOptions& options) {
+  return scene_of_options(options.scene, options.limits, options.parts);
+}
+
+double aspect_of(const Pipeline& pipeline) { return double(pipeline.width) / double(pipeline.height); }
+
+ChangedCamera camera_of(const Scene& scene, const CameraChanges& changes, const Pipeline& pipeline) {
+  return {scene, changes, aspect_of(pipeline)};
+}
+
+void show(Scene& scene, const CameraChanges& changes, const Pipeline& pipeline, double time) {
+  const ChangedCamera camera = camera_of(scene, changes, pipeline);
+  fit_lights_of_ours(scene, pipeline);
+  set_time(scene, time);
+  camera.see(scene);
 }
 
 void check_memory(const Scene& scene, const Pipeline& pipeline, const Execution& execution,

@@ -14,10 +14,20 @@ void check_pipeline(const PipelineOptions& options);
 
 /// load_scene() with the pictures that files name, within the options' limits, and by way of the cache file in
 /// limits.cache.
-Scene scene_of_options(const std::string& spec, const Limits& limits);
+Scene scene_of_options(const std::string& spec, const Limits& limits, const SceneParts& parts = {});
+Scene scene_of_options(const SceneOptions& options);
 
 /// The same for what draws frames alone, with the clusters of the cache file. Says why there is none.
-CachedScene cached_scene_of_options(const std::string& spec, const Limits& limits);
+CachedScene cached_scene_of_options(const std::string& spec, const Limits& limits, const SceneParts& parts);
+
+double aspect_of(const Pipeline& pipeline);  ///< width / height
+
+/// The camera of the options, of a scene as it was loaded.
+ChangedCamera camera_of(const Scene& scene, const CameraChanges& changes, const Pipeline& pipeline);
+
+/// Makes a scene, as it was loaded, the one that a picture shows: lights of ours fit the pipeline, all stands where it
+/// is at the time, seconds, and the camera is that of the options.
+void show(Scene& scene, const CameraChanges& changes, const Pipeline& pipeline, double time);
 
 /// Error(limit) where the frame, with what is in memory, is predicted to be over the memory cap. `more`: bytes that are
 /// taken besides the frame's.

@@ -31,7 +31,7 @@ void PrintedPictures::note(const std::string& line) {
 
 void PrintedPictures::end() const {
   if (!options_.json) return;
-  const char* const list = options_.frames ? "frames" : options_.cube_map ? "faces" : nullptr;
+  const char* const list = options_.numbered() ? "frames" : options_.cube_map ? "faces" : nullptr;
   print(list ? "{\"" + std::string(list) + "\":[" + documents_ + "]}\n" : documents_ + '\n');
 }
 

@@ -19,10 +19,10 @@ namespace trueshade {
 namespace {
 
 void render_frames(const RenderOptions& options, Pictures& pictures, PictureSink& sink) {
-  const int count = options.frames->last - options.frames->first + 1;
+  const FrameRange frames = *options.numbered();
   Activity activity("rendering frames", Activity::Counts::by_hand);
-  for (int frame = options.frames->first; frame <= options.frames->last; ++frame) {
-    activity.show(frame - options.frames->first, count, "frames");
+  for (int frame = frames.first; frame <= frames.last; ++frame) {
+    activity.show(frame - frames.first, frames.last - frames.first + 1, "frames");
     pictures.picture(frame, sink);
   }
 }
@@ -58,13 +58,13 @@ void check_outputs(const RenderOptions& options, const MpiStart& start) {
 }  // namespace
 
 SceneToRender::SceneToRender(const RenderOptions& given, const Execution& execution)
-    : cached(cached_scene_of_options(given.scene, given.limits)),
+    : cached(cached_scene_of_options(given.scene, given.limits, given.parts)),
       scene(cached.scene),
       pipeline(pipeline_of(given, scene)),
       options(given) {
   check_cube_map(options, pipeline);
   validate_region(pipeline, options.execution.region);
-  if (options.resume && (!is_streamed(options, pipeline) || options.outputs.empty() || options.frames))
+  if (options.resume && (!is_streamed(options, pipeline) || options.outputs.empty() || options.numbered()))
     throw Error(ErrorKind::usage, "--resume", "one large picture that goes into files can be gone on with",
                 "leave it out: a picture over 16384 pixels a side, or of more than 67108864, is large");
   options.looks = bring_to_looks(options, pipeline, ChosenLooks::by_scene, scene, cached.clusters.get());
@@ -95,7 +95,7 @@ void render(const RenderOptions& options) {
     for (const std::string& path : options.outputs)
       if (!is_standard_output(path)) make_folder_of(path);
     Pictures pictures(of.options, of.cached, of.pipeline, execution_of(options));
-    if (options.frames)
+    if (options.numbered())
       render_frames(options, pictures, sink);
     else
       pictures.picture(std::nullopt, sink);

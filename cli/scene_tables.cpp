@@ -21,6 +21,7 @@ CommandTable info_table(InfoOptions& options, InfoTexts& texts) {
   add_quiet(table, options, "Say neither progress nor which files were written");
   add_size(table, texts.size);
   add_time(table, texts.time);
+  add_camera(table, texts.camera);
   add_layers(table, options);
   add_strategy(table, texts.strategy);
   add_target(table, texts.target);
@@ -61,6 +62,7 @@ CommandTable glsl_table(GlslFilesOptions& options, GlslTexts& texts) {
   add_quiet(table, options, "Say neither progress nor which files were written");
   add_size(table, texts.size);
   add_time(table, texts.time);
+  add_camera(table, texts.camera);
   add_layers(table, options);
   add_light_program(table, options);
   add_strategy(table, texts.strategy);
@@ -71,19 +73,20 @@ CommandTable glsl_table(GlslFilesOptions& options, GlslTexts& texts) {
   return table;
 }
 
-CommandTable export_table(ExportOptions& options, std::optional<std::string>& time) {
+CommandTable export_table(ExportOptions& options, ExportTexts& texts) {
   CommandTable table{"export", "Write a scene as a GLB file, for other programs and for this one"};
   add_value(table, "SCENE", "SCENE", options.scene, kSceneHelp).is_required = true;
   table.open_group = "Output";
   add_value(table, "-o,--output", "FILE", options.output, "File to write: .glb, or - for standard output").is_required =
       true;
   add_quiet(table, options, "Say neither notes nor progress nor which file was written");
-  add_value(table, "--time", "SECONDS", time, "Write the scene as it stands at this time, without what moves").group =
-      kCameraGroup;
+  add_value(table, "--time", "SECONDS", texts.time, "Write the scene as it stands at this time, without what moves")
+      .group = kCameraGroup;
+  add_camera(table, texts.camera);
   add_limits(table, options.limits);
   table.examples = {{"trueshade export builtin:city -o city.glb", "A scene for other programs."}};
   table.see_also = {"render", "info"};
-  table.finished = [&options, &time]() -> Command { return finished(std::move(options), time); };
+  table.finished = [&options, &texts]() -> Command { return finished(std::move(options), texts); };
   return table;
 }
 

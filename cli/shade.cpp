@@ -14,7 +14,6 @@
 #include "core/error.h"
 #include "core/image_files/image_io.h"
 #include "core/printable_text.h"
-#include "scenes/pipeline/fit_lights.h"
 #include "scenes/pipeline/transparency.h"
 #include "scenes/scene.h"
 #include "shading/given_surfaces.h"
@@ -63,11 +62,10 @@ void shade(const ShadeOptions& options) {
   check_pipeline(options);
   for (const std::string& path : options.outputs) check_output(path);
   CaptureFiles files = capture_files_of(options.capture, options.limits);
-  Scene scene = scene_of_options(options.scene, options.limits);
-  set_time(scene, options.time);
+  Scene scene = scene_of_options(options);
   Pipeline pipeline = pipeline_of(options, scene);
   pipeline.width = files.width(), pipeline.height = files.height();
-  fit_lights_of_ours(scene, pipeline);
+  show(scene, options.camera, pipeline, options.time);
   check_memory(scene, pipeline, execution_of(options), {}, file_memory(pipeline, {}, options.outputs, {}));
   const StoredPlanes planes = planes_to_light(options, files, scene, pipeline);
   files = {};

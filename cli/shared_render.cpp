@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "cli/camera_json.h"
 #include "cli/looks.h"
 #include "cli/notes.h"
 #include "cli/option_values.h"
@@ -35,6 +36,7 @@ std::string outputs_text(const RenderOptions& options) {
   if (!options.aovs.empty()) text += " --aov " + joined(options.aovs);
   if (options.encode) text += " --encode " + std::to_string(int(*options.encode));
   text += looks_text(options.looks);
+  text += camera_words(options.parts, options.camera);
   if (!options.cube_map) return text;
   text += options.cube_map->cross ? " --cube-cross" : " --cube-map";
   if (const auto& eye = options.cube_map->eye)
@@ -47,6 +49,7 @@ std::vector<std::pair<std::string, std::string>> identity_of(const RenderOptions
   std::vector<std::pair<std::string, std::string>> identity = {{"version", kVersion}, {"commit", kCommit}};
   if (options.frames)
     identity.emplace_back("frames", std::to_string(options.frames->first) + '-' + std::to_string(options.frames->last));
+  if (options.turntable) identity.emplace_back("turntable", std::to_string(*options.turntable));
   const PictureRegion& region = options.execution.region;
   identity.emplace_back("region", std::to_string(region.x) + ',' + std::to_string(region.y) + ',' +
                                       std::to_string(region.width) + 'x' + std::to_string(region.height));
@@ -141,11 +144,12 @@ SharedTasks SharedRender::next_tasks() {
 
 SharedTasks SharedRender::frame_tasks() {
   SharedTasks tasks;
-  tasks.count = options_.frames->last - options_.frames->first + 1;
+  const FrameRange frames = *options_.numbered();
+  tasks.count = frames.last - frames.first + 1;
   tasks.identity = identity_;
-  tasks.run = [this](int task, std::span<const uint8_t>, const Wanted& wanted) {
+  tasks.run = [this, frames](int task, std::span<const uint8_t>, const Wanted& wanted) {
     PackedPictures packed;
-    pictures_->picture(options_.frames->first + task, packed, [&wanted] { wanted.check(); });
+    pictures_->picture(frames.first + task, packed, [&wanted] { wanted.check(); });
     return packed.bytes();
   };
   tasks.same_part = part_without_times;
@@ -213,11 +217,13 @@ void SharedRender::end_round() {
 
 /// That are made one after the other; the frames of a sequence are one round.
 int SharedRender::pictures() const {
-  return options_.frames && by_bands() ? options_.frames->last - options_.frames->first + 1 : 1;
+  const auto frames = options_.numbered();
+  return frames && by_bands() ? frames->last - frames->first + 1 : 1;
 }
 
 std::optional<int> SharedRender::frame() const {
-  return options_.frames ? std::optional(options_.frames->first + done_) : std::nullopt;
+  const auto frames = options_.numbered();
+  return frames ? std::optional(frames->first + done_) : std::nullopt;
 }
 
 int SharedRender::band_rows(int ranks) const {
@@ -232,10 +238,10 @@ int SharedRender::band_rows(int ranks) const {
   return int(std::max<int64_t>((rows + unit - 1) / unit, 1)) * unit;
 }
 
-bool SharedRender::by_bands() const { return !options_.frames || is_streamed(options_, of_->pipeline); }
+bool SharedRender::by_bands() const { return !options_.numbered() || is_streamed(options_, of_->pipeline); }
 
 bool is_shared(const RenderOptions& options) {
-  if (options.frames) return true;
+  if (options.numbered()) return true;
   return !options.cube_map && !options.raw_video &&
          std::none_of(options.outputs.begin(), options.outputs.end(),
                       [](const std::string& path) { return has_ending(path, ".html"); });

@@ -1,5 +1,6 @@
 #include "cli/shell_words.h"
 
+#include "cli/camera_json.h"
 #include "cli/json_text.h"
 #include "cli/looks.h"
 
@@ -13,8 +14,8 @@ std::string for_shell(const std::string& word) {
   return quoted + "'";
 }
 
-std::string explain_command(const PipelineOptions& options, const Pipeline& pipeline, double time,
-                            const std::string& against) {
+std::string explain_command(const PipelineOptions& options, const CameraChanges& camera, const Pipeline& pipeline,
+                            double time, const std::string& against) {
   std::string command = "trueshade explain " + for_shell(options.scene);
   if (options.preset) command += " --preset " + for_shell(*options.preset);
   if (options.pipeline_file) command += " --pipeline " + for_shell(*options.pipeline_file);
@@ -25,6 +26,7 @@ std::string explain_command(const PipelineOptions& options, const Pipeline& pipe
   if (options.looks.samples) command += " --samples " + *options.looks.samples;
   command += looks_text(options.looks);
   if (time != 0) command += " --time " + json_number(time);
+  command += camera_words(options.parts, camera);
   command += " --pixel {x},{y}";
   if (!against.empty()) command += " --against " + for_shell(against);
   return command;

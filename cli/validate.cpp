@@ -25,7 +25,6 @@
 #include "core/printable_text.h"
 #include "judge/bounds/profile_file.h"
 #include "scenes/files/content/scene_files.h"
-#include "scenes/pipeline/fit_lights.h"
 #include "scenes/scene.h"
 #include "shading/program/program_frame.h"
 
@@ -148,14 +147,13 @@ bool judge_opengl(const ValidationOptions& options) {
   std::optional<CaptureFiles> files;
   if (options.capture.given()) files = capture_files_of(options.capture, options.limits);
   activity->now("reading the scene");
-  Scene scene = scene_of_options(options.scene, options.limits);
+  Scene scene = scene_of_options(options);
   const Pipeline asked = pipeline_of(options, scene);
   // An engine's picture has the lights and the background of the file.
   const Looks looks = bring_to_looks(options, asked, files ? ChosenLooks::never : ChosenLooks::by_scene, scene);
-  fit_lights_of_ours(scene, asked);
-  set_time(scene, options.time);
   v.pipeline = with_planes_of_program(asked);
   if (files && !options.size) v.pipeline.width = files->width(), v.pipeline.height = files->height();
+  show(scene, options.camera, v.pipeline, options.time);
   check_memory(scene, v.pipeline, {}, {}, judging_memory(options, v.pipeline));
   if (names_vulkan(options.driver)) v.profile = *oracle::profile_named("vulkan");
   if (options.held_to) v.profile = profile_of(*options.held_to);
@@ -205,7 +203,7 @@ bool judge_opengl(const ValidationOptions& options) {
     const std::string against = !options.saved.empty() ? options.saved.front() : picture_of(options.capture);
     ValidationOptions as_drawn = options;
     as_drawn.looks = looks;
-    v.explain_command = explain_command(as_drawn, v.pipeline, options.time, against);
+    v.explain_command = explain_command(as_drawn, options.camera, v.pipeline, options.time, against);
     const std::string page = validation_page(v, scene);
     write_text(*options.report, page);
   }

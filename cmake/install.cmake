@@ -16,7 +16,7 @@ foreach(header
   core/array.h core/blend_state.h core/error.h core/expansion.h core/format.h core/memory_cap.h core/threads/parallel_for.h core/half.h core/image.h core/image_files/image_io.h core/numeric_profile.h core/sha256.h
   scenes/builtin/builtin.h scenes/camera.h scenes/pipeline/image_view.h scenes/light.h scenes/pipeline/light_model.h scenes/pipeline/light_program.h scenes/mesh.h scenes/pipeline/pipeline.h
   scenes/placement.h scenes/pipeline/post_chain.h scenes/pipeline/presets.h scenes/texture.h scenes/timeline.h scenes/pipeline/transparency.h
-  scenes/scene.h scenes/scene_limits.h core/simd/simd_target.h shading/frame.h shading/output/extent.h)
+  scenes/scene.h scenes/scene_limits.h scenes/scene_parts.h core/simd/simd_target.h shading/frame.h shading/output/extent.h)
   get_filename_component(folder ${header} DIRECTORY)
   install(FILES ${PROJECT_SOURCE_DIR}/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/trueshade/${folder} COMPONENT dev)
 endforeach()

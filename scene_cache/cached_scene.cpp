@@ -46,6 +46,14 @@ std::string cache_path(const std::string& folder, const std::string& spec) {
   return folder + (folder.ends_with('/') ? "" : "/") + name + '-' + sha.hex().substr(0, 16) + ".cache";
 }
 
+/// Another text for other parts; nothing of those that are taken unasked.
+std::string text_of(const SceneParts& parts) {
+  std::string text;
+  for (const auto& [option, value] : {std::pair{"camera", &parts.camera}, {"animation", &parts.animation}})
+    if (*value) text += std::string(1, '\0') + option + '=' + **value;
+  return text;
+}
+
 bool has_many_uv_sets(const Scene& scene) {
   return std::any_of(scene.meshes.begin(), scene.meshes.end(), [](const Mesh& m) { return !m.more_uv.empty(); });
 }
@@ -174,11 +182,11 @@ void check_all(const CachedScene& cached) {
 }
 
 CachedScene cached_scene(const std::string& folder, const std::string& spec, const SceneLimits& limits,
-                         const std::function<Scene()>& load) {
+                         const SceneParts& parts, const std::function<Scene()>& load) {
   const FpScope fp;
   check_folder(folder);
   if (spec == "-") return {load(), nullptr, {}};
-  const std::string whole_spec = absolute_spec(spec), path = cache_path(folder, whole_spec);
+  const std::string whole_spec = absolute_spec(spec) + text_of(parts), path = cache_path(folder, whole_spec);
   if (auto cached = read_cache(path, whole_spec, limits)) return std::move(*cached);
 
   const int64_t start_ns = now_ns();

@@ -113,12 +113,23 @@ void each_member(auto& visit, Same<Timeline> auto& value) {
           node_instances, node_lights, node_camera, skins, shapes, posed);
 }
 
+void each_member(auto& visit, Same<SceneCamera> auto& value) {
+  auto& [name, node, fov_y_rad] = value;
+  each_of(visit, name, node, fov_y_rad);
+}
+
+void each_member(auto& visit, Same<SceneAnimation> auto& value) {
+  auto& [name, seconds] = value;
+  each_of(visit, name, seconds);
+}
+
 /// All but the meshes, which are stored first, one by one, and the digests, which the file's maker stores.
 void each_member(auto& visit, Same<Scene> auto& value) {
   auto& [spec, meshes, materials, textures, instances, lights, camera, clear, pipeline_text, timeline, time,
-         photometric, lights_of_ours, is_model, digests, notes] = value;
+         photometric, lights_of_ours, is_model, camera_of_ours, ground_of_ours, cameras, animations, digests, notes] =
+      value;
   each_of(visit, spec, materials, textures, instances, lights, camera, clear, pipeline_text, timeline, time,
-          photometric, lights_of_ours, is_model, notes);
+          photometric, lights_of_ours, is_model, camera_of_ours, ground_of_ours, cameras, animations, notes);
 }
 
 void each_member(auto& visit, Same<FileState> auto& value) {

@@ -21,7 +21,11 @@ constexpr double kMostIntensity = 1e17;
 
 constexpr const char* kGround = "ground";  // of its mesh and its material
 constexpr double kGroundReflectance = 0.34;
+constexpr double kGroundRadius = 8.0;  // in radii of the bounds
+constexpr double kMostGround = 9e17;   // of its coordinates
 constexpr glm::dvec3 kSoftLight(0.17, 0.18, 0.2);
+
+double ground_height(const Bounds& bounds) { return bounds.least.y - 0.004 * bounds.radius; }
 
 double luminance(const glm::dvec3& color) { return (0.2126 * color.x + 0.7152 * color.y) + 0.0722 * color.z; }
 
@@ -132,12 +136,11 @@ void add_lights_of_ours(Scene& scene) {
 
 void add_ground(Scene& scene) {
   constexpr int kSides = 96;
-  constexpr double kMost = 9e17;
   const FpScope fp;
   const Bounds bounds = bounds_of(scene);
-  const double radius = 8.0 * bounds.radius, height = bounds.least.y - 0.004 * bounds.radius;
-  const bool fits = std::fabs(bounds.centre.x) + radius < kMost && std::fabs(bounds.centre.z) + radius < kMost &&
-                    std::fabs(height) < kMost;
+  const double radius = kGroundRadius * bounds.radius, height = ground_height(bounds);
+  const bool fits = std::fabs(bounds.centre.x) + radius < kMostGround &&
+                    std::fabs(bounds.centre.z) + radius < kMostGround && std::fabs(height) < kMostGround;
   if (scene.triangle_count() == 0 || !fits) return;
   Mesh disc;
   disc.name = kGround;
@@ -148,9 +151,7 @@ void add_ground(Scene& scene) {
     add_vertex(disc, centre + glm::dvec3(cosine(angle), 0.0, -sine(angle)) * radius, up);
     disc.indices.insert(disc.indices.end(), {0, uint32_t(1 + i), uint32_t(1 + (i + 1) % kSides)});
   }
-  const glm::dvec3 to_centre = centre - glm::dvec3(scene.camera.eye);
-  const double farthest = std::sqrt(dot(to_centre, to_centre)) + radius;
-  scene.camera.far = std::max(scene.camera.far, float(std::min(1.01 * farthest, kMost)));
+  see_ground(scene.camera, bounds);
   const float grey = float(kGroundReflectance / gain_of(scene));
   scene.clear = glm::vec4(glm::vec3(kSoftLight * kGroundReflectance), 1.0f);  // as the ground is where no lamp reaches
   Instance instance;
@@ -159,12 +160,21 @@ void add_ground(Scene& scene) {
   scene.meshes.push_back(std::move(disc));
   scene.materials.push_back({kGround, {grey, grey, grey, 1.0f}});
   scene.instances.push_back(instance);
+  scene.ground_of_ours = true;
+}
+
+void see_ground(Camera& camera, const Bounds& bounds) {
+  const FpScope fp;
+  const glm::dvec3 to_centre =
+      glm::dvec3(bounds.centre.x, ground_height(bounds), bounds.centre.z) - glm::dvec3(camera.eye);
+  const double farthest = std::sqrt(dot(to_centre, to_centre)) + kGroundRadius * bounds.radius;
+  camera.far = std::max(camera.far, float(std::min(1.01 * farthest, kMostGround)));
 }
 
 void remove_ground(Scene& scene) {
-  const bool is_last = !scene.instances.empty() && scene.instances.back().mesh + 1 == scene.meshes.size();
-  if (scene.is_model && !scene.photometric && is_last && scene.meshes.back().name == kGround)
-    scene.instances.pop_back();
+  if (!scene.is_model || scene.photometric || !scene.ground_of_ours) return;
+  scene.instances.pop_back();
+  scene.ground_of_ours = false;
 }
 
 }  // namespace trueshade

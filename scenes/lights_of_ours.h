@@ -1,5 +1,6 @@
 #pragma once
 #include "scenes/scene.h"
+#include "scenes/scene_defaults.h"
 
 namespace trueshade {
 
@@ -26,5 +27,8 @@ double spread_light(const Light& lamp);
 void add_ground(Scene& scene);
 /// Takes that instance away, where there is one; its mesh and its material stay.
 void remove_ground(Scene& scene);
+
+/// Moves a camera's far plane behind that ground. `bounds`: of what stands on it, see bounds_without_ground().
+void see_ground(Camera& camera, const Bounds& bounds);
 
 }  // namespace trueshade

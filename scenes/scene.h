@@ -16,6 +16,7 @@
 #include "scenes/light.h"
 #include "scenes/mesh.h"
 #include "scenes/scene_limits.h"
+#include "scenes/scene_parts.h"
 #include "scenes/texture.h"
 #include "scenes/timeline.h"
 
@@ -43,7 +44,7 @@ struct Material {
   TextureSlot occlusion_map{};           ///< R: the share of ambient light that arrives; texels at most 1
   float occlusion_strength = 1.0f;       ///< in [0, 1]: ambient light is multiplied by 1 + strength (R - 1)
   bool unlit = false;                    ///< shows its colour as it is; no light changes it (KHR_materials_unlit)
-  bool double_sided = false;  ///< its back faces are never culled, and lit with their normals turned round
+  bool double_sided = false;             ///< its back faces are never culled, and lit with their normals turned round
 
   /// Whether alpha_cutoff is above 0, by bits: a caller's flush-to-zero would take a denormal for 0.
   bool masked() const { return std::bit_cast<int32_t>(alpha_cutoff) > 0; }
@@ -75,8 +76,8 @@ struct Instance {
   bool mirrored = false;
 };
 
-/// What scene_hash() makes of a scene's meshes, and of its textures where they have many texels: these arrays, which may
-/// lie on disk, need not be read for it again.
+/// What scene_hash() makes of a scene's meshes, and of its textures where they have many texels: these arrays, which
+/// may lie on disk, need not be read for it again.
 struct SceneDigests {
   Sha256 meshes;  ///< fed with all of them
   std::vector<std::string> textures;
@@ -101,22 +102,33 @@ struct Scene {
   /// Lights are in candela and lux, and materials of glTF's model: without a preset the pipeline is that of
   /// default_pipeline() in scenes/pipeline/presets.h.
   bool photometric = false;
-  bool lights_of_ours = false;       ///< the last kLightsOfOurs lights are ours (scenes/lights_of_ours.h)
-  bool is_model = false;             ///< a model file of others: what it lacks may be chosen so that it looks well
-  std::shared_ptr<const SceneDigests> digests{};  ///< null unless meshes and textures lie in a cache file (scene_cache/)
+  bool lights_of_ours = false;  ///< the last kLightsOfOurs lights are ours (scenes/lights_of_ours.h)
+  bool is_model = false;        ///< a model file of others: what it lacks may be chosen so that it looks well
+  bool camera_of_ours = false;  ///< the file has no camera: the one of camera_seeing() stands in, for square pictures
+  bool ground_of_ours = false;  ///< the last instance is the ground of add_ground()
+  std::vector<SceneCamera> cameras{};        ///< of a glTF file; empty where its cameras are not the scene's
+  std::vector<SceneAnimation> animations{};  ///< of a glTF file
+  std::shared_ptr<const SceneDigests>
+      digests{};                     ///< null unless meshes and textures lie in a cache file (scene_cache/)
   std::vector<std::string> notes{};  ///< what of its file the scene leaves out, a full sentence without full stop each
 
   uint64_t triangle_count() const;  ///< over all instances
 };
 
-/// Texels of an image file's content: rgba8 or rgba16 as the codes are, rgba16f or rgba32f. Made by who links an image library;
-/// scenes does not. `where` stands in errors. Error(limit) for more than `most_bytes`, before they are allocated.
+/// Texels of an image file's content: rgba8 or rgba16 as the codes are, rgba16f or rgba32f. Made by who links an image
+/// library; scenes does not. `where` stands in errors. Error(limit) for more than `most_bytes`, before they are
+/// allocated.
 using ImageDecoder =
     std::function<Image(std::span<const uint8_t> content, const std::string& where, uint64_t most_bytes)>;
 
 /// Throws Error(bad_input or limit) unless every index, number and count is in its stated range: finite positions with
 /// |x| <= 1e18, colours in [0, 1e18], ranges > 0, unit directions, indices below the vertex count.
 void validate(const Scene& scene, const SceneLimits& limits = {});
+
+enum class ErrorKind : int;  // core/error.h
+/// The same of a camera alone: finite numbers, angles in (0, pi), 0 < near < far, and a target and an up that leave a
+/// direction to the side. `where` and `kind` are the error's.
+void validate_camera(const Camera& camera, const std::string& where, ErrorKind kind);
 
 /// Largest |x|, |y|, |z| of a mesh's vertices.
 glm::dvec3 reach_of(const Mesh& mesh);
@@ -134,11 +146,13 @@ uint32_t frame_at(const Scene& scene);
 void validate_moving(const Scene& scene, double time);
 
 /// Reads `builtin:NAME[,key=value...]`, a scene file (.json), glTF (.gltf, .glb), geometry (.obj, .ply, and these with
-/// .gz), endings in small letters or capitals, or `-`: standard input without OBJ and .gz; and validates it. glTF without
-/// a camera or lights gets them as geometry does. Geometry alone has smooth normals if it has none, is grey where it has
-/// no material, and gets a camera, lights and a ground of ours. Without `decode` a scene that names an image file is
-/// refused. Errors: bad_input with file and place; limit; io for a file that cannot be read.
-Scene load_scene(const std::string& spec, const SceneLimits& limits = {}, const ImageDecoder& decode = {});
+/// .gz), endings in small letters or capitals, or `-`: standard input without OBJ and .gz; and validates it. glTF
+/// without a camera or lights gets them as geometry does. Geometry alone has smooth normals if it has none, is grey
+/// where it has no material, and gets a camera, lights and a ground of ours. Without `decode` a scene that names an
+/// image file is refused. Errors: bad_input with file and place; limit; io for a file that cannot be read; usage for
+/// `parts` that the scene has not.
+Scene load_scene(const std::string& spec, const SceneLimits& limits = {}, const ImageDecoder& decode = {},
+                 const SceneParts& parts = {});
 
 /// The digests of a scene without posed meshes, whose uv sets behind the first are absent.
 SceneDigests digests_of(const Scene& scene);

@@ -1,4 +1,7 @@
 #pragma once
+#include <glm/vec2.hpp>
+#include <optional>
+
 #include "scenes/scene.h"
 
 // What a scene gets where its file says nothing.
@@ -11,9 +14,28 @@ struct Bounds {
   glm::dvec3 least{-1.0};  ///< the box's lowest corner
 };
 Bounds bounds_of(const Scene& scene);
+/// The same of all but the ground of ours.
+Bounds bounds_without_ground(const Scene& scene);
 
-/// A camera above and to the right of the front that sees all that is drawn: in a square picture it fills 85 % of the
-/// width or of the height, and is in the middle.
-Camera camera_seeing(const Scene& scene);
+/// A side to see a scene from, and a lens.
+struct SeenFrom {
+  glm::dvec3 toward, right, up;      ///< world, unit, at right angles: to the eye; right and up in the picture
+  glm::dvec2 slope;                  ///< tangents of half the angles that are seen across the picture and up it
+  std::optional<glm::dvec3> target;  ///< in the picture's middle; nothing: the middle of what is seen is there
+  bool both_middles = false;         ///< also along the side of the picture that is not full
+};
+
+/// How far off the eye is to be.
+struct Framing {
+  Bounds bounds;         ///< without ground
+  glm::dvec3 target;     ///< world
+  double distance;       ///< from target to eye, scene units: the most that is seen fills 85 % of the width or height
+  double front, behind;  ///< along SeenFrom::toward, from the target to the nearest and to the farthest point
+};
+Framing framing_of(const Scene& scene, const SeenFrom& view);
+
+/// A camera above and to the right of the front that sees all that is drawn: it fills 85 % of the width or of the
+/// height of a picture of this aspect, width / height, and is in the middle. `fov_y_rad`: full vertical angle.
+Camera camera_seeing(const Scene& scene, double aspect = 1.0, float fov_y_rad = 0.5f);
 
 }  // namespace trueshade

@@ -171,7 +171,9 @@ void check_light(const Light& light, const Part& part) {
                "in [0, 8192]");
 }
 
-void check_camera(const Camera& camera, const Part& part) {
+/// `part`: a Part, or what fails and requires as one does.
+template <class Named>
+void check_camera(const Camera& camera, const Named& part) {
   part.require(within(camera.eye, -kMostReach, kMostReach), "the eye is not finite or over 1e18", "finite numbers");
   if (camera.clip_from_world) {
     part.require(all_within(*camera.clip_from_world, 3e38f), "clip_from_world has a number that is not finite",
@@ -249,6 +251,18 @@ void validate(const Scene& scene, const SceneLimits& limits) {
   check_camera(scene.camera, Part{spec, "camera", {}});
   Part{spec, "clear", {}}.require(is_color(scene.clear), "the colour is out of range",
                                   "RGB in [0, 1e18], alpha in [0, 1]");
+}
+
+void validate_camera(const Camera& camera, const std::string& where, ErrorKind kind) {
+  const FpScope fp;
+  struct Named {
+    const std::string& where;
+    ErrorKind kind;
+    void require(bool holds, const char* reason, const char* remedy) const {
+      if (!holds) throw Error(kind, where, reason, remedy);
+    }
+  };
+  check_camera(camera, Named{where, kind});
 }
 
 void validate_moving(const Scene& scene, double time) {

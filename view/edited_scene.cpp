@@ -25,7 +25,18 @@ void EditedScene::change_lights(const ViewState& state) {
   fitted_to_ = fit_of(state.pipeline);
 }
 
+/// As the scene stands at its first time, which is where every picture of it is framed.
+void EditedScene::frame(double aspect) {
+  if (!scene_.camera_of_ours || aspect == aspect_) return;
+  time_.reset();
+  scene_.camera = camera_;
+  set_time(scene_, 0.0);
+  framed_ = ChangedCamera(scene_, {}, aspect);
+  aspect_ = aspect;
+}
+
 void EditedScene::show(const ViewState& state) {
+  frame(double(state.pipeline.width) / double(state.pipeline.height));
   if (changes_ != state.changes || fitted_to_ != fit_of(state.pipeline)) {
     time_.reset();
     change_lights(state);
@@ -34,6 +45,7 @@ void EditedScene::show(const ViewState& state) {
     time_.reset();  // until set_time() has succeeded
     scene_.camera = camera_;
     set_time(scene_, state.time);
+    framed_.see(scene_);
     prepared_.update();
     moved_camera_ = scene_.camera;
     time_ = state.time;

@@ -2,6 +2,7 @@
 #include <optional>
 #include <vector>
 
+#include "scenes/camera_changes.h"
 #include "scenes/pipeline/fit_lights.h"
 #include "shading/frame.h"
 #include "view/view_state.h"
@@ -26,6 +27,7 @@ class EditedScene {
 
  private:
   void change_lights(const ViewState& state);
+  void frame(double aspect);
 
   Scene scene_;
   const std::vector<Light> lights_;  // as they were loaded
@@ -37,6 +39,8 @@ class EditedScene {
   PreparedScene prepared_;
   std::optional<std::vector<LightChange>> changes_;  // that the lights have now
   LightFit fitted_to_;                               // what lights of ours are fitted to now
+  ChangedCamera framed_;                             // a camera of ours, for the picture's shape
+  double aspect_ = 1.0;                              // that it is framed for
   std::optional<double> time_;                       // that the scene stands at
 };
 

@@ -88,7 +88,7 @@ void Session::set_time(double seconds) {
 
 void Session::set_camera(const Camera& camera) {
   controls_.emplace(camera, facts_.reach);
-  state_.camera = controls_->camera();
+  state_.camera = camera.clip_from_world ? controls_->camera() : camera;  // to the bit, until somebody flies
   changed();
 }
 
@@ -294,7 +294,7 @@ void Session::take_over(SceneFacts facts) {
   if (draws_by_its_preset(base) && draws_by_its_preset(base_pipeline_))
     use_program(base.light_program);
   else
-    base.light_program = base_pipeline_.light_program;  // which is loaded by itself
+    base.light_program = base_pipeline_.light_program;            // which is loaded by itself
   if (state_.pipeline == base_pipeline_) state_.pipeline = base;  // the user has not changed it
   base_pipeline_ = base;
   std::erase_if(state_.changes, [&](const LightChange& change) { return change.light >= facts.lights.size(); });

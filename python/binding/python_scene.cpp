@@ -3,9 +3,20 @@
 #include <utility>
 
 #include "core/error.h"
+#include "scenes/camera_changes.h"
 #include "scenes/pipeline/fit_lights.h"
 
 namespace trueshade::python {
+
+namespace {
+
+/// Whether frames of a pipeline are drawn from another scene: the brightness of lights of ours depends on it, and a
+/// camera of ours on the picture's shape.
+bool is_fitted(const Scene& scene, const Pipeline& pipeline) {
+  return scene.lights_of_ours || (scene.camera_of_ours && pipeline.width != pipeline.height);
+}
+
+}  // namespace
 
 PythonScene::PythonScene(Scene scene) : scene_(std::move(scene)) {}
 
@@ -41,7 +52,7 @@ std::string PythonScene::hash() {
 }
 
 std::shared_ptr<const PreparedScene> PythonScene::prepared(const Pipeline& pipeline) {
-  if (scene_.lights_of_ours) {  // their brightness depends on the pipeline, so the frame gets a copy of the scene
+  if (is_fitted(scene_, pipeline)) {  // the frame gets a copy of the scene
     struct Owned {
       FittedScene scene;
       PreparedScene prepared;
@@ -62,8 +73,12 @@ std::shared_ptr<const PreparedScene> PythonScene::prepared(const Pipeline& pipel
 }
 
 FittedScene::FittedScene(const Scene& scene, const Pipeline& pipeline) : scene_(scene) {
-  if (!scene.lights_of_ours) return;
+  if (!is_fitted(scene, pipeline)) return;
   copy_ = scene;
+  set_time(*copy_, 0.0);  // where a camera of ours is framed
+  const ChangedCamera camera(*copy_, {}, double(pipeline.width) / double(pipeline.height));
+  set_time(*copy_, scene.time);
+  camera.see(*copy_);
   fit_lights_of_ours(*copy_, pipeline);
 }
 

@@ -60,7 +60,7 @@ class PythonScene {
   std::vector<Sampler> samplers_;
 };
 
-/// The scene as frames of that pipeline are drawn from it: lights of ours fit it, those of others stay.
+/// The scene as frames of that pipeline are drawn from it: lights and a camera of ours fit it, those of others stay.
 /// Borrows the scene, unless it needs another one.
 class FittedScene {
  public:

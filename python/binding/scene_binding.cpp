@@ -7,6 +7,7 @@
 #include "python/binding/bindings.h"
 #include "python/binding/python_scene.h"
 #include "scenes/add_normals.h"
+#include "scenes/camera_changes.h"
 #include "scenes/texture.h"
 #include "scenes/trig.h"
 
@@ -44,16 +45,26 @@ glm::vec3 color_of(const py::handle& values, const std::string& name) {
   return vec3_within(values, name, 0.0, kBrightest);
 }
 
-std::shared_ptr<PythonScene> load(const py::object& spec_or_path, double time) {
+/// A number or a name.
+std::optional<std::string> part_of(const py::object& part) {
+  if (part.is_none()) return std::nullopt;
+  return std::string(py::str(part));
+}
+
+std::shared_ptr<PythonScene> load(const py::object& spec_or_path, double time, const py::object& camera,
+                                  const py::object& animation) {
   const std::string spec = path_of(spec_or_path);
   number_within(time, "time", -kLatestTime, kLatestTime);
   std::shared_ptr<PythonScene> loaded;
+  const SceneParts parts{part_of(camera), part_of(animation)};
   const py::gil_scoped_release release;
   const SceneLimits limits;
-  loaded = std::make_shared<PythonScene>(
-      load_scene(spec, limits, [&](std::span<const uint8_t> content, const std::string& where, uint64_t most) {
+  loaded = std::make_shared<PythonScene>(load_scene(
+      spec, limits,
+      [&](std::span<const uint8_t> content, const std::string& where, uint64_t most) {
         return decode_image(content, where, most, limits.expansion);
-      }));
+      },
+      parts));
   loaded->set_time(time);
   return loaded;
 }
@@ -305,7 +316,32 @@ void set_camera(PythonScene& to, const py::object& eye, const py::object& target
     for (size_t r = 0; r < 4; ++r)
       for (size_t c = 0; c < 4; ++c) (*camera.clip_from_world)[4 * c + r] = float(matrix.at(0, r, c));
   }
-  to.changeable().camera = camera;
+  Scene& scene = to.changeable();
+  scene.camera = camera, scene.camera_of_ours = false;
+}
+
+void set_orbit(PythonScene& to, double azimuth_deg, double elevation_deg, const std::optional<double>& distance,
+               const py::object& look_at, const std::optional<double>& fov_deg, const py::object& size) {
+  OrbitPlace place;
+  place.azimuth_deg = number_within(azimuth_deg, "azimuth_deg", -36000.0, 36000.0);
+  place.elevation_deg = number_within(elevation_deg, "elevation_deg", -90.0, 90.0);
+  if (distance) {
+    place.distance = number_within(*distance, "distance", 1e-30, 1e17);
+    place.unit = DistanceUnit::scene_units;
+  }
+  CameraChanges changes;
+  changes.orbit = place;
+  if (!look_at.is_none()) changes.target = place_of(look_at, "look_at");
+  if (fov_deg) changes.fov_y_deg = number_within(*fov_deg, "fov_deg", 0.001, 179.99);
+  const std::vector<double> sides = numbers_of(size, "size", 2);
+  for (const double side : sides) number_within(side, "size", 1.0, double(uint64_t(1) << 20));
+  const double time = to.time();
+  to.set_time(0.0);  // where scenes are framed
+  const ChangedCamera camera(to.values(), changes, sides[0] / sides[1]);
+  to.set_time(time);
+  Scene& scene = to.changeable();
+  camera.see(scene);
+  scene.camera_of_ours = false;
 }
 
 void set_clear(PythonScene& to, const py::object& color) {
@@ -330,7 +366,8 @@ std::string described(const PythonScene& scene) {
 
 void add_scene(py::module_& module) {
   using namespace py::literals;
-  module.def("load_scene", &load, doc_of("load_scene"), "spec"_a, "time"_a = 0.0);
+  module.def("load_scene", &load, doc_of("load_scene"), "spec"_a, "time"_a = 0.0, py::kw_only(),
+             "camera"_a = py::none(), "animation"_a = py::none());
   const py::tuple zero = py::make_tuple(0.0, 0.0, 0.0), one = py::make_tuple(1.0, 1.0, 1.0);
   const py::tuple quarter = py::make_tuple(0.25, 0.25, 0.25);
   const auto count = [](auto list) { return [list](const PythonScene& s) { return (s.values().*list).size(); }; };
@@ -365,6 +402,9 @@ void add_scene(py::module_& module) {
       .def("set_camera", &set_camera, doc_of("Scene.set_camera"), "eye"_a, "target"_a = py::none(), py::kw_only(),
            "up"_a = py::make_tuple(0.0, 1.0, 0.0), "fov_deg"_a = 45.0, "fov_x_deg"_a = py::none(), "near"_a = 0.1,
            "far"_a = 1000.0, "clip_from_world"_a = py::none())
+      .def("set_orbit", &set_orbit, doc_of("Scene.set_orbit"), "azimuth_deg"_a, "elevation_deg"_a,
+           "distance"_a = py::none(), py::kw_only(), "look_at"_a = py::none(), "fov_deg"_a = py::none(),
+           "size"_a = py::make_tuple(1, 1))
       .def("set_clear", &set_clear, doc_of("Scene.set_clear"), "color"_a)
       .def("set_time", &PythonScene::set_time, doc_of("Scene.set_time"), "time"_a)
       .def_property_readonly("time", &PythonScene::time, doc_of("Scene.time"))

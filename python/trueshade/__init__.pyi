@@ -197,6 +197,25 @@ class Scene:
             space is OpenGL's, -w <= z <= w, unless the pipeline says otherwise.
         Raises Error for other shapes and values.
         """
+    def set_orbit(
+        self,
+        azimuth_deg: float,
+        elevation_deg: float,
+        distance: Optional[float] = None,
+        *,
+        look_at: Optional[_Vector3] = None,
+        fov_deg: Optional[float] = None,
+        size: Sequence[int] = (1, 1),
+    ) -> None:
+        """Sets the camera that `trueshade render --orbit` has: it sees the scene from a side.
+
+        azimuth_deg, elevation_deg: to the right of the scene's front, and above it.
+        distance: scene units from the centre; without it the scene fills 85 % of the width or the height of a picture
+            of the shape of `size`, width and height.
+        look_at: world space, the place that is gone around, in place of the centre.
+        fov_deg: the full vertical angle; without it the lens of the scene's camera stays.
+        Raises Error for other values.
+        """
     def set_clear(self, color: _Vector4) -> None:
         """Sets what the target holds where nothing is drawn: linear RGBA."""
     def set_time(self, time: float) -> None:
@@ -304,11 +323,18 @@ class Frame:
         pipeline, the scene's hash and the image's hash in it. The file appears whole or not at all. Raises Error for
         other endings and where writing fails."""
 
-def load_scene(spec: _Path, time: float = 0.0) -> Scene:
+def load_scene(
+    spec: _Path,
+    time: float = 0.0,
+    *,
+    camera: Union[int, str, None] = None,
+    animation: Union[int, str, None] = None,
+) -> Scene:
     """Loads a scene: `builtin:NAME[,KEY=VALUE...]`, or a file that ends in .json, .gltf, .glb, .obj or .ply.
 
     time: seconds, at most 1e6, that what moves is moved to. `trueshade list` and docs/scenes.md have the built-in
-    scenes. Raises Error with the file and the place in it.
+    scenes. camera, animation: which of a glTF file's, by number from 0 or by name; the animation may be "all"; without
+    them the first. Raises Error with the file and the place in it.
     """
 
 def render(

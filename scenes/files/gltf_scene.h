@@ -10,8 +10,9 @@ namespace trueshade {
 bool is_gltf_name(std::string_view name);
 
 /// The scene of a .gltf or .glb file at time 0; docs/gltf.md says what of it is read. Buffers and images are read from
-/// the folder of `path`. Not validated. Error(bad_input) with JSON pointer, line or byte; Error(limit); Error(io).
+/// the folder of `path`. Not validated. Error(bad_input) with JSON pointer, line or byte; Error(limit); Error(io);
+/// Error(usage) for parts that the file has not.
 Scene scene_from_gltf(std::span<const uint8_t> file, const std::string& path, const SceneLimits& limits,
-                      const ImageDecoder& decode = {});
+                      const ImageDecoder& decode = {}, const SceneParts& parts = {});
 
 }  // namespace trueshade

@@ -28,6 +28,7 @@ Scene scene_of(Mesh mesh) {
 /// Geometry alone: seen whole, under lights of ours, on a ground.
 Scene shown(Scene scene) {
   scene.camera = camera_seeing(scene);
+  scene.camera_of_ours = true;
   add_lights_of_ours(scene);
   add_ground(scene);
   scene.is_model = true;
@@ -36,11 +37,12 @@ Scene shown(Scene scene) {
 
 /// A scene without a name, and so without an ending: its first bytes tell the format. Other files that it names lie in
 /// the folder of the process.
-Scene scene_of_standard_input(const SceneLimits& limits, const ImageDecoder& decode, const SceneLoader& load) {
+Scene scene_of_standard_input(const SceneLimits& limits, const ImageDecoder& decode, const SceneParts& parts,
+                              const SceneLoader& load) {
   const std::string where(kStandardInput);
   const Bytes bytes = read_standard_input(limits.file_bytes, "--max-file");
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (text.starts_with("glTF")) return scene_from_gltf(bytes, where, limits, decode);
+  if (text.starts_with("glTF")) return scene_from_gltf(bytes, where, limits, decode, parts);
   if (text.starts_with("ply")) return shown(scene_of(mesh_from_file(bytes, where, limits, MissingNormals::smooth)));
   if (!text.substr(std::min(text.find_first_not_of(" \t\r\n"), text.size())).starts_with('{'))
     throw Error(ErrorKind::bad_input, where, "its first bytes are neither of JSON nor of glTF, GLB or PLY",
@@ -49,7 +51,7 @@ Scene scene_of_standard_input(const SceneLimits& limits, const ImageDecoder& dec
     throw Error(ErrorKind::limit, where, std::to_string(text.size()) + " bytes are over the limit",
                 within_limit(limits.json_bytes, "bytes", "--max-json"));
   const json::Value root = json::parse(text, where);
-  return json::Node(root, where).find("asset") ? scene_from_gltf(bytes, where, limits, decode)
+  return json::Node(root, where).find("asset") ? scene_from_gltf(bytes, where, limits, decode, parts)
                                                : scene_from_json(text, where, limits, decode, load);
 }
 
@@ -57,21 +59,31 @@ std::string name_without_folder(const std::string& path) { return path.substr(pa
 
 enum class References : uint8_t { followed, refused };  ///< of a scene file to another one: one step, no chains
 
+/// Parts that were asked for are those of a list, or camera 0 of a scene that has no list.
+void check_parts(const Scene& scene, const SceneParts& parts) {
+  if (parts.camera && scene.cameras.empty()) camera_named(*parts.camera, {}, scene.spec);
+  if (parts.animation && scene.animations.empty()) animation_named(*parts.animation, {}, scene.spec);
+}
+
 Scene loaded_scene(const std::string& spec, const SceneLimits& limits, const ImageDecoder& decode,
-                   References references) {
+                   const SceneParts& parts, References references) {
   constexpr std::string_view kBuiltin = "builtin:";
-  if (spec.starts_with(kBuiltin)) return builtin_scene(std::string_view(spec).substr(kBuiltin.size()), limits);
   Scene scene;
+  if (spec.starts_with(kBuiltin)) {
+    scene = builtin_scene(std::string_view(spec).substr(kBuiltin.size()), limits);
+    check_parts(scene, parts);
+    return scene;
+  }
   SceneLoader load;
   if (references == References::followed)
-    load = [&](const std::string& other) { return loaded_scene(other, limits, decode, References::refused); };
+    load = [&](const std::string& other) { return loaded_scene(other, limits, decode, parts, References::refused); };
   if (spec == kStandardInputName && references == References::followed) {
-    scene = scene_of_standard_input(limits, decode, load);
+    scene = scene_of_standard_input(limits, decode, parts, load);
   } else if (has_ending(spec, ".json")) {
     const Bytes text = read_user_file(spec, limits.json_bytes, "--max-json");
     scene = scene_from_json({reinterpret_cast<const char*>(text.data()), text.size()}, spec, limits, decode, load);
   } else if (is_gltf_name(spec)) {
-    scene = scene_from_gltf(read_user_file(spec, limits.file_bytes), spec, limits, decode);
+    scene = scene_from_gltf(read_user_file(spec, limits.file_bytes), spec, limits, decode, parts);
   } else if (is_geometry_name(spec)) {
     const Bytes file = read_user_file(spec, limits.file_bytes);
     scene = shown(scene_of(mesh_from_file(file, spec, limits, MissingNormals::smooth)));
@@ -88,14 +100,16 @@ Scene loaded_scene(const std::string& spec, const SceneLimits& limits, const Ima
   }
   scene.spec = name_without_folder(spec);
   validate(scene, limits);
+  check_parts(scene, parts);
   return scene;
 }
 
 }  // namespace
 
-Scene load_scene(const std::string& spec, const SceneLimits& limits, const ImageDecoder& decode) {
+Scene load_scene(const std::string& spec, const SceneLimits& limits, const ImageDecoder& decode,
+                 const SceneParts& parts) {
   const FpScope fp;
-  return loaded_scene(spec, limits, decode, References::followed);
+  return loaded_scene(spec, limits, decode, parts, References::followed);
 }
 
 }  // namespace trueshade

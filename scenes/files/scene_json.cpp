@@ -112,12 +112,14 @@ Scene scene_from_json(std::string_view text, const std::string& path, const Scen
   const auto camera = root.find("camera");
   if (camera) {
     scene.camera = Camera();
+    scene.camera_of_ours = false;
+    scene.cameras.clear();
     scene.timeline.camera.clear();
     scene.timeline.node_camera.reset();
     read_camera(*camera, scene);
   }
   set_time(scene, 0.0);
-  if (!camera && !reference) scene.camera = camera_seeing(scene);
+  if (!camera && !reference) scene.camera = camera_seeing(scene), scene.camera_of_ours = true;
   return scene;
 }
 

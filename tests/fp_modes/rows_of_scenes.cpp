@@ -1,4 +1,5 @@
 // scenes/: what is read, moved, checked and hashed.
+#include "core/error.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/pipeline/pipeline.h"
 #include "tests/fp_modes/rows.h"
@@ -123,6 +124,18 @@ void call_validate(Bytes& out) {
   });
 }
 
+void call_parts(Bytes& out) {
+  out.put(camera_named("Side", {{"Main", "", 0.7}, {"", "Side", 1e-310}}, "file"));
+  out.put(animation_named("1", {{"Walk", 0.1}, {"Run", 1e-310}}, "file"));
+  out.put_error([] { animation_named("2", {{"Walk", 0.1}, {"Run", 1e-310}}, "file"); });
+  validate_camera(scene_of_all().camera, "camera", ErrorKind::usage);
+  out.put_error([] {
+    Camera camera = scene_of_all().camera;
+    camera.fov_y_rad = 3.1415926f;
+    validate_camera(camera, "camera", ErrorKind::usage);
+  });
+}
+
 void call_set_time(Bytes& out) {
   Scene scene = scene_of_all();
   for (const double time : {0.0, 0.1, 2.7, -1e5}) {
@@ -227,7 +240,8 @@ constexpr Row kRows[] = {
     {"scenes/camera.h", "clip_from_world clip_from_view view_from_world product view_axis", call_camera},
     {"scenes/mesh.h", "vertex_count triangle_count has_uv has_color uv_set", call_mesh},
     {"scenes/placement.h", "world_from_object copied turned turn_about unit mirrors", call_placements},
-    {"scenes/texture.h", "append_texel build_mip_chain texel_value bytes_per_texel used texture_bytes float_texels_of_16_bits",
+    {"scenes/texture.h",
+     "append_texel build_mip_chain texel_value bytes_per_texel used texture_bytes float_texels_of_16_bits",
      call_textures},
     {"scenes/timeline.h", "value_at direction_at rotation_at position_at set_property empty", call_tracks},
     {"scenes/pipeline/transparency.h", "draws_transparent",
@@ -235,6 +249,8 @@ constexpr Row kRows[] = {
     {"scenes/scene.h", "load_scene Image", call_load},
     {"scenes/scene.h", "scene_hash digests_of triangle_count masked textured", call_hash},
     {"scenes/scene.h", "validate validate_moving reach_of", call_validate},
+    {"scenes/scene.h", "validate_camera", call_parts},
+    {"scenes/scene_parts.h", "camera_named animation_named", call_parts},
     {"scenes/scene.h", "set_time frame_at", call_set_time},
     {"scenes/scene.h", "shininess_of_roughness maps_of", call_shininess},
 };

@@ -214,3 +214,23 @@ def test_the_light_program_of_a_preset_goes_through_json():
     read = trueshade.Pipeline(values=named.to_json())
     assert read == named
     assert trueshade.render(loaded, read).hash == trueshade.render(loaded, named).hash
+
+
+def test_a_model_without_a_camera_and_its_orbits_are_seen_as_the_command_sees_them(command):
+    path = command.folder / "m.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 3 1\nf 1 2 3\n")
+    scene = trueshade.load_scene(path)
+
+    def told(*options):
+        return hash_of(command("render", path, "--preset", "many-lights", "--size", "64x24", "--hash", *options))
+
+    pipeline = trueshade.Pipeline("many-lights", size=(64, 24))
+    assert trueshade.render(scene, pipeline).hash == told()
+    scene.set_orbit(30, 20, size=(64, 24))
+    assert trueshade.render(scene, pipeline).hash == told("--orbit", "30,20")
+    scene.set_orbit(30, 20, 5.5, look_at=(0, 1, 0), fov_deg=40, size=(64, 24))
+    assert trueshade.render(scene, pipeline).hash == told("--orbit", "30,20,5.5", "--look-at", "0,1,0", "--fov", "40")
+    with pytest.raises(trueshade.Error, match="--camera: m.obj has no camera 'Side'"):
+        trueshade.load_scene(path, camera="Side")
+    with pytest.raises(trueshade.Error, match="elevation_deg"):
+        scene.set_orbit(0, 91)

@@ -14,7 +14,7 @@ namespace trueshade {
 /// The hash of a small frame of a scene by way of the cache file in a folder; `loads` counts how often it was read.
 inline std::string cached_hash(const std::string& folder, const std::string& spec, int& loads, double time = 0.0,
                                const Execution& execution = {}, const SceneLimits& limits = {}) {
-  CachedScene cached = cached_scene(folder, spec, limits, [&] { return ++loads, load_scene(spec, limits); });
+  CachedScene cached = cached_scene(folder, spec, limits, {}, [&] { return ++loads, load_scene(spec, limits); });
   if (!cached.clusters) cached.clusters = std::make_unique<ClusteredScene>(cluster_scene(cached.scene));
   PreparedScene prepared(cached.scene, std::move(cached.clusters));
   set_time(cached.scene, time);

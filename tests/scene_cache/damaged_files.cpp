@@ -98,7 +98,7 @@ TEST_CASE("a cache file with right checksums that names a mesh, a material or a 
       return scene;
     };
     try {
-      cached_scene(cache.path(""), "builtin:atrium", {}, load);
+      cached_scene(cache.path(""), "builtin:atrium", {}, {}, load);
     } catch (const Error& error) {
       return int(error.kind());
     }

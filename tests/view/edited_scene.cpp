@@ -3,6 +3,7 @@
 #include <array>
 
 #include "core/error.h"
+#include "scenes/camera_changes.h"
 #include "scenes/pipeline/fit_lights.h"
 #include "scenes/pipeline/presets.h"
 #include "tests/catch.hpp"
@@ -14,9 +15,11 @@ namespace {
 /// The scene that loading, changing and moving give, each done once.
 Scene made_at_once(const std::string& spec, const ViewState& state) {
   Scene scene = load_scene(spec);
+  const ChangedCamera camera(scene, {}, double(state.pipeline.width) / double(state.pipeline.height));
   change_lights(scene, state.changes);
   fit_lights_of_ours(scene, state.pipeline);
   set_time(scene, state.time);
+  camera.see(scene);
   if (state.camera) scene.camera = *state.camera;
   return scene;
 }
@@ -32,6 +35,7 @@ TEST_CASE("Whatever was shown before, a state gives the scene that loading and c
       ViewState state;
       state.pipeline = presets()[(random >> 8) % presets().size()].pipeline;
       state.time = double((random >> 12) % 4) * 0.75;
+      if (random >> 20 & 1) state.pipeline.width = 1200;
       if (random >> 16 & 1) state.changes.push_back({1, false});
       if (random >> 17 & 1) state.changes.push_back({0, true, glm::vec3(1, 2, 3), 0.5});
       if (random >> 18 & 1) state.changes.push_back({2, true, {}, {}, glm::vec3(0.5f, 1, 0)});

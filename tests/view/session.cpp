@@ -8,6 +8,7 @@
 
 #include "cli/preparation.h"
 #include "core/sha256.h"
+#include "scenes/camera_changes.h"
 #include "scenes/pipeline/presets.h"
 #include "tests/catch.hpp"
 #include "tests/scratch_folder.h"
@@ -41,8 +42,11 @@ struct Run {
   }
   std::string rendered() const {
     Scene scene = load_scene(source.spec);
+    const Pipeline pipeline = drawn_pipeline(session.state());
+    const ChangedCamera camera(scene, {}, double(pipeline.width) / double(pipeline.height));
     set_time(scene, session.state().time);
-    return image_hash(render_frame(scene, drawn_pipeline(session.state())).color);
+    camera.see(scene);
+    return image_hash(render_frame(scene, pipeline).color);
   }
 };
 
@@ -222,7 +226,8 @@ TEST_CASE("A light model's file that is saved is drawn anew, and while it is bro
 
 TEST_CASE("A preset that is chosen keeps the light model, time passes where it reads it, and exposure has no part") {
   const ScratchFolder folder;
-  Run run(by_model("builtin:lecture", folder.write("live.glsl", model_text("float gain;", "0.01 * gain * (1.0 + v.time)"))));
+  Run run(by_model("builtin:lecture",
+                   folder.write("live.glsl", model_text("float gain;", "0.01 * gain * (1.0 + v.time)"))));
   Session& session = run.session;
   run.until_still();
   const std::string first = session.hash();
@@ -239,7 +244,8 @@ TEST_CASE("A preset that is chosen keeps the light model, time passes where it r
   CHECK(session.hash() != first);
 }
 
-TEST_CASE("A preset that draws by a light program brings it along and takes it away, and a model that is chosen stays") {
+TEST_CASE(
+    "A preset that draws by a light program brings it along and takes it away, and a model that is chosen stays") {
   Run run("builtin:cornell");
   Session& session = run.session;
   const auto program = [&session] { return session.state().pipeline.light_program.file; };

@@ -50,7 +50,7 @@ void run_window(const ViewOptions& options) {
   check_pipeline(options);
   std::vector<ScriptStep> steps = script_of(options);
   const Display display;
-  const SceneSource source{options.scene, [&options] { return scene_of_options(options.scene, options.limits); },
+  const SceneSource source{options.scene, [&options] { return scene_of_options(options); },
                            [&options](const Scene& scene) { return pipeline_of(options, scene); },
                            [&options](Scene& scene, const Pipeline& pipeline) {
                              return looks_text(bring_to_looks(options, pipeline, ChosenLooks::by_scene, scene));
@@ -62,8 +62,12 @@ void run_window(const ViewOptions& options) {
   if (!options.size)
     opened.facts.pipeline.width = look.width, opened.facts.pipeline.height = look.height - bar_rows(look.scale);
   check_memory(opened.scene->scene(), opened.facts.pipeline, options.execution, {});
+  std::optional<Camera> camera;  // of the options, which stands still
+  if (const Scene& scene = opened.scene->scene(); options.camera.any())
+    camera = camera_of(scene, options.camera, opened.facts.pipeline).camera(scene);
   Session session(source, std::move(opened), options.execution, [&display] { display.wake(); });
   if (options.time != 0.0) session.set_time(options.time);
+  if (camera) session.set_camera(*camera);
   Window window(display, session, look);
   ScriptPlayer player(std::move(steps), options.script.value_or(""), session, window);
   do player.play();

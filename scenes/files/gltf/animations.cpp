@@ -1,6 +1,8 @@
 #include "scenes/files/gltf/animations.h"
 
+#include <algorithm>
 #include <map>
+#include <set>
 
 namespace trueshade::gltf {
 namespace {
@@ -58,6 +60,38 @@ Track copied_track(Accessors& accessors, const Track& track, uint32_t accessor) 
 }
 
 }  // namespace
+
+std::vector<SceneAnimation> animations_of(const Document& document) {
+  std::vector<SceneAnimation> out;
+  for (const AnimationSource& from : document.animations) {
+    SceneAnimation& animation = out.emplace_back(SceneAnimation{from.name, 0.0});
+    for (const AnimationSampler& sampler : from.samplers)
+      animation.seconds = std::max(animation.seconds, document.accessors[sampler.input].largest.value_or(0.0));
+  }
+  return out;
+}
+
+std::optional<AnimationSource> played_animation(const Document& document, const std::optional<std::string>& named,
+                                                uint64_t& passed_over) {
+  const std::vector<AnimationSource>& all = document.animations;
+  if (named && *named != kAllAnimations) return all[animation_named(*named, animations_of(document), document.file)];
+  if (all.empty()) return std::nullopt;
+  if (!named) return all.front();
+  AnimationSource together;
+  std::set<std::pair<uint32_t, Path>> moved;
+  for (const AnimationSource& animation : all) {
+    for (Channel channel : animation.channels) {
+      if (channel.node != kNone && channel.path != Path::unknown && !moved.emplace(channel.node, channel.path).second) {
+        ++passed_over;
+        continue;
+      }
+      channel.sampler += uint32_t(together.samplers.size());
+      together.channels.push_back(channel);
+    }
+    together.samplers.insert(together.samplers.end(), animation.samplers.begin(), animation.samplers.end());
+  }
+  return together;
+}
 
 Track track_of(Accessors& accessors, const AnimationSource& animation, const Channel& channel) {
   const AnimationSampler& sampler = animation.samplers[channel.sampler];

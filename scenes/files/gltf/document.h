@@ -95,6 +95,7 @@ struct Accessor {
   Component type = Component::float32;
   Shape shape = Shape::scalar;
   bool normalized = false;
+  std::optional<double> largest;  ///< of a scalar's elements, as the file says
   std::optional<Sparse> sparse;
 };
 
@@ -185,6 +186,7 @@ struct SkinSource {
 
 struct CameraSource {
   enum class Type : uint8_t { perspective, orthographic, unknown };
+  std::string name;
   Type type = Type::unknown;
   double fov_y_rad = 0.0, near = 0.0, x_mag = 0.0, y_mag = 0.0;
   std::optional<double> far;  ///< absent: infinite
@@ -212,6 +214,7 @@ struct Channel {
 };
 
 struct AnimationSource {
+  std::string name;
   std::vector<Channel> channels;
   std::vector<AnimationSampler> samplers;
 };

@@ -65,6 +65,7 @@ void check_channel(const json::Node& node, const Channel& channel, const Animati
 
 AnimationSource read_animation(const json::Node& node, const Counts& counts, const Document& document) {
   AnimationSource animation;
+  animation.name = string_or_empty(node, "name");
   node.member("samplers"), node.member("channels");
   for_each(node, "samplers", [&](const json::Node& element, size_t) {
     animation.samplers.push_back(read_sampler(element, counts, document));

@@ -141,7 +141,10 @@ Accessor read_accessor(const json::Node& node, const Counts& counts, const Docum
   if (a.normalized && (a.type == Component::float32 || a.type == Component::uint32))
     type.fail("floats and 32-bit integers cannot be normalized", "8 or 16 bits");
   for (const std::string_view bound : {"min", "max"})
-    for_each(node, bound, [](const json::Node& value, size_t) { value.number(-3.5e38, 3.5e38); });
+    for_each(node, bound, [&](const json::Node& value, size_t) {
+      const double number = value.number(-3.5e38, 3.5e38);
+      if (bound == "max" && a.shape == Shape::scalar) a.largest = number;
+    });
   if (a.shape == Shape::unknown) return a;
   const uint64_t size = element_bytes(a.type, a.shape);
   const bool is_matrix = a.shape >= Shape::mat2;

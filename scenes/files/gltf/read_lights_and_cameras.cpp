@@ -9,6 +9,7 @@ constexpr double kSmallest = 1e-30;  // of lengths that must be above 0
 CameraSource read_camera(const json::Node& node) {
   constexpr std::string_view kTypes[] = {"perspective", "orthographic"};
   CameraSource camera;
+  camera.name = string_or_empty(node, "name");
   camera.type = CameraSource::Type(known_or_other(node.member("type"), kTypes));
   const auto perspective = node.find("perspective"), orthographic = node.find("orthographic");
   if (perspective && orthographic) node.fail("a camera is perspective and orthographic", "one of them");

@@ -14,9 +14,10 @@
 namespace trueshade::gltf {
 
 SceneMaker::SceneMaker(Buffers& buffers, const SceneFolder& folder, const SceneLimits& limits,
-                       const ImageDecoder& decode)
+                       const ImageDecoder& decode, const SceneParts& parts)
     : document_(buffers.document()),
       limits_(limits),
+      asked_(parts),
       accessors_(buffers, limits),
       pictures_(buffers, folder, limits, decode, scene_),
       materials_(document_, pictures_, scene_),
@@ -27,19 +28,34 @@ Scene SceneMaker::make() {
   scene_.spec = document_.file;
   scene_.photometric = true;
   scene_.is_model = true;
+  choose_parts();
   prepare();
   pictures_.decode_all([this] { read_geometry_and_nodes(); });
   bake_uv(scene_, materials_.uv_sources(), [this](uint64_t bytes) { accessors_.take(bytes, "/meshes"); });
   set_time(scene_, 0.0);
-  if (!timeline.node_camera) scene_.camera = camera_seeing(scene_);
+  scene_.camera_of_ours = !timeline.node_camera;
+  if (scene_.camera_of_ours) scene_.camera = camera_seeing(scene_);
   if (!moves()) timeline = Timeline{};
   if (scene_.lights.empty()) add_lights_of_ours(scene_);
   add_notes();
   return std::move(scene_);
 }
 
-const AnimationSource* SceneMaker::animation() const {
-  return document_.animations.empty() ? nullptr : &document_.animations[0];
+/// Before anything large is read, because they may be none of the file's.
+void SceneMaker::choose_parts() {
+  std::vector<uint32_t> places;
+  for (uint32_t place = 0; place < hierarchy_.nodes.size(); ++place) {
+    const NodeSource& node = document_.nodes[hierarchy_.nodes[place]];
+    if (node.camera == kNone) continue;
+    const CameraSource& camera = document_.cameras[node.camera];
+    places.push_back(place);
+    scene_.cameras.push_back(
+        {camera.name, node.name, camera.type == CameraSource::Type::perspective ? camera.fov_y_rad : 0.0});
+  }
+  const size_t camera = asked_.camera ? camera_named(*asked_.camera, scene_.cameras, document_.file) : 0;
+  if (!places.empty()) camera_place_ = places[camera];
+  scene_.animations = animations_of(document_);
+  animation_ = played_animation(document_, asked_.animation, passed_over_);
 }
 
 bool SceneMaker::moves() const {
@@ -53,7 +69,7 @@ void SceneMaker::add_node(uint32_t place) {
   if (node.mesh != kNone) add_mesh(place, node);
   if (node.copies && (node.mesh == kNone || node.skin != kNone)) ++ignored_copies_;
   if (node.light != kNone) add_light(place, node.light);
-  if (node.camera == kNone || ++cameras_ > 1) return;
+  if (place != camera_place_) return;
   const Lens lens = lens_of(document_, node.camera);
   scene_.camera = lens.camera;
   scene_.timeline.node_camera = NodeCamera{place, lens.clip_from_view};
@@ -227,7 +243,7 @@ uint32_t SceneMaker::add_posed_mesh(const NodeSource& node, uint32_t place, Draw
   const auto found = weight_channels_.find(index);
   const Channel* channel = found == weight_channels_.end() ? nullptr : found->second;
   const auto read = channel ? weights_read_.find(channel->sampler) : weights_read_.end();
-  PosedMesh posed = weighed(accessors_, index, shape.targets.size(), animation(), channel,
+  PosedMesh posed = weighed(accessors_, index, shape.targets.size(), animation_ ? &*animation_ : nullptr, channel,
                             read == weights_read_.end() ? nullptr : &*timeline.posed[read->second].motion);
   if (posed.motion) weights_read_.try_emplace(channel->sampler, timeline.posed.size());
   posed.mesh = uint32_t(scene_.meshes.size());
@@ -254,9 +270,9 @@ uint32_t SceneMaker::scene_skin(uint32_t skin) {
 void SceneMaker::read_geometry_and_nodes() {
   Timeline& timeline = scene_.timeline;
   timeline.nodes = scene_nodes(document_, hierarchy_);
-  if (animation()) {
-    timeline.node_motions = node_motions(accessors_, *animation(), hierarchy_);
-    for (const Channel& channel : animation()->channels)
+  if (animation_) {
+    timeline.node_motions = node_motions(accessors_, *animation_, hierarchy_);
+    for (const Channel& channel : animation_->channels)
       if (channel.path == Path::weights && channel.node != kNone) weight_channels_.emplace(channel.node, &channel);
   }
   for (uint32_t place = 0; place < hierarchy_.nodes.size(); ++place) add_node(place);
@@ -276,13 +292,17 @@ void SceneMaker::add_notes() {
        " morph targets of texture coordinates or colours, which keep their values");
   note(ignored_copies_, "node has", "nodes have",
        " EXT_mesh_gpu_instancing, which is ignored: Only a mesh without a skin is copied");
-  note(std::max<uint64_t>(cameras_, 1) - 1, "camera is", "cameras are",
-       " ignored: The picture is taken through the first camera");
-  note(std::max<uint64_t>(document_.animations.size(), 1) - 1, "animation is", "animations are",
-       " ignored: The first animation is played");
+  if (!asked_.camera)
+    note(std::max<uint64_t>(scene_.cameras.size(), 1) - 1, "camera is", "cameras are",
+         " ignored: The picture is taken through the first camera");
+  if (!asked_.animation)
+    note(std::max<uint64_t>(document_.animations.size(), 1) - 1, "animation is", "animations are",
+         " ignored: The first animation is played");
+  note(passed_over_, "channel of an animation is", "channels of animations are",
+       " ignored: An animation before it moves the same");
   uint64_t unknown_paths = 0;
-  if (!document_.animations.empty())
-    for (const Channel& channel : document_.animations[0].channels) unknown_paths += channel.path == Path::unknown;
+  if (animation_)
+    for (const Channel& channel : animation_->channels) unknown_paths += channel.path == Path::unknown;
   note(unknown_paths, "channel", "channels",
        " of the animation without an effect: The path is none of translation, rotation, scale and weights");
   uint64_t strided = 0;

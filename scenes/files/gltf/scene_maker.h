@@ -16,7 +16,8 @@ namespace trueshade::gltf {
 /// Puts the parts of a document together as a scene. Borrows all it is given.
 class SceneMaker {
  public:
-  SceneMaker(Buffers& buffers, const SceneFolder& folder, const SceneLimits& limits, const ImageDecoder& decode);
+  SceneMaker(Buffers& buffers, const SceneFolder& folder, const SceneLimits& limits, const ImageDecoder& decode,
+             const SceneParts& parts);
 
   /// The scene at time 0. Its timeline is empty where nothing moves. Once.
   Scene make();
@@ -50,13 +51,14 @@ class SceneMaker {
   Drawn& drawn_of(uint32_t mesh, size_t index);
   uint32_t scene_skin(uint32_t skin);
   size_t uv_sets_of(const Primitive& primitive) const;
-  const AnimationSource* animation() const;
+  void choose_parts();
   bool moves() const;
   void read_geometry_and_nodes();
   void add_notes();
 
   const Document& document_;
   const SceneLimits& limits_;
+  const SceneParts& asked_;
   Scene scene_;
   Accessors accessors_;
   Pictures pictures_;
@@ -68,7 +70,10 @@ class SceneMaker {
   std::map<uint32_t, size_t> weights_read_;             ///< by sampler, to those of timeline.posed with its track
   std::map<uint32_t, uint32_t> skins_;                  ///< of the document, to those of the timeline
   std::map<uint32_t, Parts> parts_;                     ///< by mesh of the document
-  uint64_t points_ = 0, lines_ = 0, without_positions_ = 0, with_unread_targets_ = 0, ignored_copies_ = 0, cameras_ = 0;
+  uint64_t points_ = 0, lines_ = 0, without_positions_ = 0, with_unread_targets_ = 0, ignored_copies_ = 0,
+           passed_over_ = 0;
+  uint32_t camera_place_ = kNone;  ///< in the hierarchy, of the camera that sees
+  std::optional<AnimationSource> animation_;
 };
 
 }  // namespace trueshade::gltf

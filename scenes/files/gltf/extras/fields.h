@@ -181,6 +181,8 @@ inline constexpr auto kSceneFields = [](auto& f, auto& extras) {
   f("clear", extras.scene.clear, glm::vec4(0.0f));
   f("photometric", extras.scene.photometric, false);
   f("lights_of_ours", extras.scene.lights_of_ours, false);
+  f("camera_of_ours", extras.scene.camera_of_ours, false);
+  f("ground_of_ours", extras.scene.ground_of_ours, false);
   f.object("camera", extras.scene.camera, kCameraFields);
   f.list("lights", extras.scene.lights, kLightFields);
   f.list("materials", extras.materials, kMaterialFields);

@@ -37,6 +37,8 @@ void write_extras(Writing& out) {
   scene.clear = out.scene.clear;
   scene.photometric = out.scene.photometric;
   scene.lights_of_ours = out.scene.lights_of_ours;
+  scene.camera_of_ours = out.scene.camera_of_ours;
+  scene.ground_of_ours = out.scene.ground_of_ours;
   scene.camera = out.scene.camera;
   scene.lights = out.scene.lights;
   scene.pipeline_text = out.scene.pipeline_text;
