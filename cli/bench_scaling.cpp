@@ -139,7 +139,7 @@ std::vector<std::pair<ScalingCurve, std::vector<Step>>> wanted_curves(const std:
   wanted.push_back({{"Threads, " + scene, "The same frame on fewer threads.", "threads", false, {}},
                     thread_counts(scene, execution)});
   wanted.push_back({{"SIMD targets, " + scene,
-                     "The same frame by each set of vector instructions that this CPU has.",
+                     "The same frame by each SIMD target that this build has and this CPU runs.",
                      "",
                      false,
                      {}},

@@ -49,7 +49,7 @@ std::vector<Section> sections() {
   for (const ShippedModel& model : shipped_models()) models.entries.emplace_back(model.name, model.about);
   Section formats{"formats", "Formats", {}}, planes{"aovs", "Planes (--aov)", {}};
   Section views{"views", "Views (--view)", {}};
-  Section simd{"simd", "SIMD targets of this machine, best first (--simd)", {}};
+  Section simd{"simd", "SIMD targets of this build that this machine runs, best first (--simd)", {}};
   for (const BuiltinInfo& scene : builtin_scenes()) scenes.entries.emplace_back(scene.name, scene.description);
   for (const Preset& preset : presets()) rows.entries.emplace_back(preset.name, preset.source);
   for (const Format format : kFormats) formats.entries.emplace_back(info(format).name, "");
