@@ -4,7 +4,6 @@
 
 #include "cli/bench.h"
 #include "cli/json_text.h"
-#include "core/simd/simd_target.h"
 
 namespace trueshade {
 namespace {
