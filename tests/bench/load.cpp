@@ -127,7 +127,7 @@ TEST_CASE("What threads of this process use is its own, and is not said to be an
   for (std::thread& thread : spinning) thread.join();
   const Load load = load_between(from, load_sample());
   CHECK(load.cpus >= 1);
-  CHECK(load.own > 0.05);  // however busy the machine is
+  CHECK(load.own > 0.01);  // however busy the machine is
   CHECK(load.own + load.others + load.stolen < load.cpus * 1.05);
 }
 
