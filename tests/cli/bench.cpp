@@ -295,6 +295,19 @@ TEST_CASE("Beside programs that keep every core busy bench says, in text, JSON a
   CHECK(json["scenes"][0]["load"]["others"].get<double>() > 0.0);
 }
 
+TEST_CASE("On one pinned core bench draws by one thread, and measures what others use of that core") {
+  const Outcome bench = run_command({"bench", "builtin:circle,lights=3", "--size", "64x48", "--quick", "--json", "-"},
+                                    ".", "taskset -cp $(taskset -cp $$ | sed 's/.*: //; s/[-,].*//') $$ >/dev/null");
+  INFO(bench.err);
+  REQUIRE(bench.exit_code == 0);
+  CHECK(bench.err.empty());
+  const auto json = nlohmann::json::parse(bench.out);
+  CHECK(json["threads"] == 1);
+  CHECK(json["machine"]["cores"] == 1);
+  CHECK(json["machine"]["load_before"]["cores"] == 1);
+  CHECK(json["machine"]["load_before"]["others"].get<double>() < 1.05);
+}
+
 TEST_CASE("bench's JSON says what the machine is, and keeps the time of every frame") {
   const Outcome bench =
       run_command({"bench", "builtin:circle,lights=3", "--size", "64x48", "--against", "threads=1", "--json", "-"});
