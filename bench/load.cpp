@@ -161,6 +161,16 @@ std::string clock_reason(std::span<const double> measured_ghz) {
   return "the clock was measured at " + number(*least, "%.2f") + " to " + number(*most, "%.2f") + " GHz while this ran";
 }
 
+std::string frames_reason(std::span<const NamedTiming> rows) {
+  const auto fewest = std::min_element(rows.begin(), rows.end(), [](const NamedTiming& a, const NamedTiming& b) {
+    return a.timing->ms.size() < b.timing->ms.size();
+  });
+  if (fewest == rows.end() || fewest->timing->ms.size() >= size_t(kLeastFrames)) return {};
+  const size_t count = fewest->timing->ms.size();
+  return fewest->name + " was timed for " + std::to_string(count) + (count == 1 ? " frame" : " frames") + ", where " +
+         std::to_string(kLeastFrames) + " are the least";
+}
+
 std::string spread_reason(std::span<const NamedTiming> rows) {
   const NamedTiming* widest = nullptr;
   int wide = 0;

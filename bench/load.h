@@ -57,6 +57,8 @@ Load load_between(const LoadSample& from, const LoadSample& to);
 inline constexpr double kMostTaken = 0.05;
 /// Of the middle half of the frames, of their median: the median of 15 frames is then known to 3 %.
 inline constexpr double kMostSpread = 0.10;
+/// Of each row: fewer tell neither spread nor an interval (bench/comparison.h), and one is a frame with cold caches.
+inline constexpr int kLeastFrames = 5;
 /// Between the fastest and the slowest clock measured, of the fastest; times follow the clock.
 inline constexpr double kMostClockChange = 0.05;
 /// Of the time in which a control group's limit held this process back.
@@ -72,6 +74,7 @@ struct NamedTiming {
   const Timing* timing;
   int threads = 0;  ///< 0: it is not compared by them
 };
+std::string frames_reason(std::span<const NamedTiming> rows);
 std::string spread_reason(std::span<const NamedTiming> rows);
 /// Where more threads, of at most `cpus`, are slower than fewer by more than the spread.
 std::string threads_reason(std::span<const NamedTiming> rows, int cpus);

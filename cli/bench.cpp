@@ -158,7 +158,7 @@ std::vector<std::string> reasons_of(const SceneTime& scene, const Execution& exe
                     by_threads ? thread_count(*variant_from_text(peer.strategy).threads) : 0});
   }
   std::vector<std::string> reasons = load_reasons(scene.load, "while this ran");
-  for (const std::string& reason : {spread_reason(rows), threads_reason(rows, cores)})
+  for (const std::string& reason : {frames_reason(rows), spread_reason(rows), threads_reason(rows, cores)})
     if (!reason.empty()) reasons.push_back(reason);
   return reasons;
 }
@@ -254,7 +254,7 @@ void bench(const BenchOptions& options) {
                  : "") +
             bench_text(result.scenes.back(), result));
   }
-  if (std::string reason = clock_reason(clocks); !reason.empty()) result.reasons.push_back(reason);
+  if (const std::string reason = clock_reason(clocks); !reason.empty()) result.reasons.push_back(reason);
   if (options.report) {
     const SceneTime& first = result.scenes.front();
     result.scaling = scaling_curves(rows.front(), first.scene, first.stats.lights, result.execution);

@@ -20,8 +20,8 @@ namespace {
 
 constexpr uint64_t kMostBytes = uint64_t(64) << 20;
 constexpr double kConfidence = 0.99;  ///< of each row's interval
-/// Two runs of one program on one machine differ by so much, by where memory lies and what the machine did before,
-/// which frames of one run do not show.
+/// Runs of one program differ too, by where memory lies and what the machine did before, which frames of one run do not
+/// show: smaller differences are called none.
 constexpr double kBetweenRuns = 1.03;
 
 /// Who drew what.
@@ -82,9 +82,11 @@ Result result_of(const json::Value& value, const std::string& file) {
   Result result;
   result.file = file;
   result.about = text_in(machine, "cpu") + ", " + std::to_string(machine.member("cores").integer(1, 1 << 20)) +
-                 " cores at " + formatted(machine.member("clock_ghz").number(0, 1e3), "%.2f") + " GHz; Trueshade " +
+                 (machine.member("cores").integer(1, 1 << 20) == 1 ? " core at " : " cores at ") +
+                 formatted(machine.member("clock_ghz").number(0, 1e3), "%.2f") + " GHz; Trueshade " +
                  text_in(root, "version") + " (" + text_in(root, "commit") + "), " + text_in(root, "simd") + ", " +
-                 std::to_string(root.member("threads").integer(1, 1 << 20)) + " threads";
+                 std::to_string(root.member("threads").integer(1, 1 << 20)) +
+                 (root.member("threads").integer(1, 1 << 20) == 1 ? " thread" : " threads");
   if (const auto date = machine.find("date")) result.about += "; " + date->string();
   if (const auto reasons = root.find("not_to_be_quoted"))
     for (size_t i = 0, count = reasons->array(0, 1000).size(); i < count; ++i)
@@ -184,9 +186,8 @@ std::string comparison_text(const Comparison& c) {
             formatted(c.before.score->second, "%.1f and ") + formatted(c.after.score->second, "%.1f, ") +
             formatted(c.after.score->second / c.before.score->second, "B's is %.3f times A's\n");
   return text + '\n' + std::to_string(differing) + " of " + std::to_string(c.rows.size()) +
-         " rows differ beyond noise: an interval of " + formatted(100 * kConfidence, "%.0f") +
-         " % confidence lies beyond the " + formatted(100 * (kBetweenRuns - 1), "%.0f") +
-         " % by which two runs of one program differ\n";
+         " rows differ beyond noise: with " + formatted(100 * kConfidence, "%.0f") + " % confidence by more than " +
+         formatted(100 * (kBetweenRuns - 1), "%.0f %%\n");
 }
 
 std::string result_json(const Result& result) {

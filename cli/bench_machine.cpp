@@ -35,9 +35,9 @@ std::vector<std::pair<const char*, int>> numbers_of(const CpuIdentity& cpu) {
 }  // namespace
 
 std::string bench_heading(const Machine& machine, const std::string& simd, int threads) {
-  return machine.cpu + ", " + std::to_string(machine.cores) + " cores at " + formatted(machine.clock_ghz, "%.2f") +
-         " GHz; Trueshade " + kVersion + " (" + kCommit + "), " + simd + ", " + std::to_string(threads) +
-         (threads == 1 ? " thread\n" : " threads\n");
+  return machine.cpu + ", " + std::to_string(machine.cores) + (machine.cores == 1 ? " core at " : " cores at ") +
+         formatted(machine.clock_ghz, "%.2f") + " GHz; Trueshade " + kVersion + " (" + kCommit + "), " + simd + ", " +
+         std::to_string(threads) + (threads == 1 ? " thread\n" : " threads\n");
 }
 
 std::string machine_text(const Machine& machine) {

@@ -93,7 +93,7 @@ TEST_CASE("A host that takes time, a limit, and counters that stand still are sa
   CHECK_FALSE(load_between(from, to).is_known);
 }
 
-TEST_CASE("A clock that changes, frames that spread, and one thread that beats two are named") {
+TEST_CASE("A clock that changes, frames that spread or are few, and one thread that beats two are named") {
   CHECK(clock_reason(std::vector<double>{3.5, 3.4}).empty());
   CHECK(clock_reason(std::vector<double>{3.52, 2.86, 3.4}) ==
         "the clock was measured at 2.86 to 3.52 GHz while this ran");
@@ -103,6 +103,10 @@ TEST_CASE("A clock that changes, frames that spread, and one thread that beats t
       spread_reason(std::vector<NamedTiming>{{"a", &even}, {"b", &wide}, {"c", &wider}}) ==
       "the middle half of the frames of c spreads over 950 % of their median, where 10 % is the limit; 1 other is over "
       "it too");
+  const Timing once = timing({10}), enough = timing({1, 1, 1, 1, 1});
+  CHECK(frames_reason(std::vector<NamedTiming>{{"a", &enough}, {"b", &once}}) ==
+        "b was timed for 1 frame, where 5 are the least");
+  CHECK(frames_reason(std::vector<NamedTiming>{{"a", &enough}}).empty());
   const Timing slower = timing({11, 11, 11.3, 11.4}), small = timing({0.1, 0.1, 0.1, 0.1}),
                large = timing({0.5, 0.5, 0.5, 0.5});
   CHECK(threads_reason(std::vector<NamedTiming>{{"two", &slower, 2}, {"one", &even, 1}}, 2) ==
