@@ -19,6 +19,7 @@ namespace trueshade {
 namespace {
 
 constexpr uint64_t kMostBytes = uint64_t(64) << 20;
+constexpr size_t kMostFrames = 500;   ///< of a row
 constexpr double kConfidence = 0.99;  ///< of each row's interval
 /// Runs of one program differ too, by where memory lies and what the machine did before, which frames of one run do not
 /// show: smaller differences are called none.
@@ -68,7 +69,7 @@ std::vector<double> times_of(const json::Node& row, const std::string& file) {
     throw Error(ErrorKind::bad_input, file + ": " + row.pointer(), "the times of single frames are missing",
                 "write it again by this version's `trueshade bench --json FILE`");
   std::vector<double> ms;
-  for (size_t i = 0, count = frames->array(1, 10000).size(); i < count; ++i)
+  for (size_t i = 0, count = frames->array(1, kMostFrames).size(); i < count; ++i)
     ms.push_back(frames->element(i).number(json::kSmallest, json::kLargest));
   std::sort(ms.begin(), ms.end());
   return ms;

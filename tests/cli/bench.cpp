@@ -428,6 +428,23 @@ TEST_CASE("bench --standard draws fixed scenes on every SIMD target, and a score
   }
 }
 
+TEST_CASE("Of a SIMD target that cannot be had it is said whether the build lacks it or the CPU") {
+  const auto simd = nlohmann::json::parse(run_command({"--version", "--json"}).out)["simd"];
+  const auto has = [](const nlohmann::json& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  for (const std::string name : {"avx512", "avx2", "sse4", "scalar"}) {
+    CAPTURE(name, simd);
+    const Outcome outcome = run_command({"render", "builtin:cornell", "--size", "8x8", "--hash", "--simd", name});
+    if (has(simd["runs_here"], name))
+      CHECK(outcome.exit_code == 0);
+    else
+      check_refused(outcome, 2,
+                    has(simd["built"], name) ? "this machine's CPU does not run '" + name + "'"
+                                             : "this build has no kernels for '" + name + "'");
+  }
+}
+
 TEST_CASE("bench refuses what it cannot do, in one line") {
   const ScratchFolder folder;
   check_refused(run_command({"bench", "--standard", "builtin:city"}), 2, "SCENE");
