@@ -186,9 +186,13 @@ std::string comparison_text(const Comparison& c) {
     text += "\nstandard " + std::to_string(c.before.score->first) + ": scores " +
             formatted(c.before.score->second, "%.1f and ") + formatted(c.after.score->second, "%.1f, ") +
             formatted(c.after.score->second / c.before.score->second, "B's is %.3f times A's\n");
-  return text + '\n' + std::to_string(differing) + " of " + std::to_string(c.rows.size()) +
-         " rows differ beyond noise: with " + formatted(100 * kConfidence, "%.0f") + " % confidence by more than " +
-         formatted(100 * (kBetweenRuns - 1), "%.0f %%\n");
+  text += '\n' + std::to_string(differing) + " of " + std::to_string(c.rows.size()) +
+          " rows differ beyond noise: with " + formatted(100 * kConfidence, "%.0f") + " % confidence by more than " +
+          formatted(100 * (kBetweenRuns - 1), "%.0f %%\n");
+  if (!c.before.reasons.empty() || !c.after.reasons.empty())
+    text +=
+        "what else the machines did may be the cause: figures of one of the files, or of both, are not to be quoted\n";
+  return text;
 }
 
 std::string result_json(const Result& result) {

@@ -376,6 +376,15 @@ TEST_CASE("Two results of bench are compared: rows that were made slower or fast
   }
   const Outcome same = run_command({"bench", "a.json", "a.json"}, folder.path(""));
   CHECK(same.out.find("\n0 of 4 rows differ beyond noise") != std::string::npos);
+  for (const bool busy : {false, true}) {
+    auto run = written;
+    run["not_to_be_quoted"] = nlohmann::json::array();
+    if (busy) run["not_to_be_quoted"].push_back("it was busy");
+    std::ofstream(folder.path("busy.json")) << run;
+    const Outcome said = run_command({"bench", "busy.json", "busy.json"}, folder.path(""));
+    CHECK((said.out.find("   not to be quoted: it was busy\n") != std::string::npos) == busy);
+    CHECK((said.out.find("\nwhat else the machines did may be the cause") != std::string::npos) == busy);
+  }
 
   auto few = written, other = written;
   few["scenes"][0]["frame_ms"] = {1.0, 2.0};
