@@ -29,8 +29,7 @@ int usable_cores() {
 void grant_threads(int threads) { granted = threads; }
 
 int thread_count(int requested) {
-  static const int cores = usable_cores();  // asking takes 2 us
-  return requested > 0 ? requested : granted > 0 ? int{granted} : cores;
+  return requested > 0 ? requested : granted > 0 ? int{granted} : usable_cores();  // ranks undo a binding as they join
 }
 
 namespace {
