@@ -5,8 +5,6 @@
 
 namespace trueshade {
 
-double Timing::spread() const { return (ms[ms.size() * 3 / 4] - ms[ms.size() / 4]) / median(); }
-
 std::vector<Timing> contest(std::span<const Contender> contenders, const ContestRules& rules,
                             const std::function<void(int done, int most)>& step) {
   const int most = int(contenders.size()) * (rules.rounds + 1);

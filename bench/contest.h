@@ -19,7 +19,9 @@ struct Timing {
   std::vector<double> ms;
   double least() const { return ms.front(); }
   double median() const { return ms[ms.size() / 2]; }
-  double spread() const;  ///< (upper quartile - lower quartile) / median
+  double lower_quartile() const { return ms[ms.size() / 4]; }
+  double upper_quartile() const { return ms[ms.size() * 3 / 4]; }
+  double spread() const { return (upper_quartile() - lower_quartile()) / median(); }
 };
 
 struct ContestRules {

@@ -12,9 +12,7 @@ using oracle::GlPeer;
 
 constexpr int kPixelsPerChange = 50000;
 
-bool is_fast(GlDesign design) {
-  return design != GlDesign::forward_loop && design != GlDesign::forward_multipass;
-}
+bool is_fast(GlDesign design) { return design != GlDesign::forward_loop && design != GlDesign::forward_multipass; }
 
 /// Pixels that are not the same without back faces: none inside closed meshes, a few where a silhouette's edges round,
 /// many where faces of two objects coincide.
@@ -82,6 +80,8 @@ class GlPeers final : public Peers {
     }
     return all;
   }
+
+  std::string driver() const override { return context_.info().line(); }
 
   std::string about() const override {
     return context_.info().line() +

@@ -17,7 +17,8 @@ class Peers {
  public:
   virtual ~Peers() = default;
   virtual std::vector<Contender> contenders() = 0;
-  virtual std::string about() const = 0;  ///< which driver or library, and what it was allowed
+  virtual std::string about() const = 0;             ///< which driver or library, and what it was allowed
+  virtual std::string driver() const { return {}; }  ///< vendor, renderer and version; empty where none was opened
   /// What each contender drew in its first frame, in their order; empty of peers that draw no picture.
   virtual std::vector<PeerPicture> pictures() { return {}; }
 };

@@ -134,18 +134,42 @@ void check_pictures(const PreparedScene& prepared, const Pipeline& pipeline, con
   }
 }
 
-PipelineOptions options_of(const BenchOptions& options, const std::string& spec) {
-  PipelineOptions own = options;
-  own.scene = spec;
+PipelineOptions options_of(const BenchOptions& row) {
+  PipelineOptions own = row;
+  own.scene = row.scenes.front();
   return own;
 }
 
-SceneTime measured(const BenchOptions& options, const std::string& spec, const Execution& execution) {
+/// Options of one scene each.
+std::vector<BenchOptions> rows_of(const BenchOptions& options) {
+  if (options.standard) return standard_rows(options);
+  std::vector<BenchOptions> rows;
+  for (const std::string& spec : options.scenes) (rows.emplace_back(options)).scenes = {spec};
+  return rows;
+}
+
+/// Why the times of a scene are not to be quoted.
+std::vector<std::string> reasons_of(const SceneTime& scene, const Execution& execution, int cores) {
+  std::vector<NamedTiming> rows{{"trueshade", &scene.timing, thread_count(execution.threads)}};
+  for (const PeerTime& peer : scene.peers) {
+    const bool by_threads = peer.name == "trueshade" && peer.strategy.starts_with("threads=");
+    rows.push_back({peer.name + ' ' + peer.strategy, &peer.timing,
+                    by_threads ? thread_count(*variant_from_text(peer.strategy).threads) : 0});
+  }
+  std::vector<std::string> reasons = load_reasons(scene.load, "while this ran");
+  for (const std::string& reason : {frames_reason(rows), spread_reason(rows), threads_reason(rows, cores)})
+    if (!reason.empty()) reasons.push_back(reason);
+  return reasons;
+}
+
+SceneTime measured(const BenchOptions& options, const Execution& execution, Machine& machine) {
+  const std::string& spec = options.scenes.front();
+  const LoadSample before = load_sample();
   const PeakMemory memory;
   Scene scene = scene_of_options(spec, options.limits, options.parts);
   SceneTime result;
   result.scene = scene.spec;
-  result.pipeline = pipeline_of(options_of(options, spec), scene);
+  result.pipeline = pipeline_of(options_of(options), scene);
   show(scene, options.camera, result.pipeline, 0.0);
   result.notes = notes_of(scene, result.pipeline);
   check_memory(scene, result.pipeline, execution, {});
@@ -160,14 +184,19 @@ SceneTime measured(const BenchOptions& options, const std::string& spec, const E
   for (const auto& peer : peers) {
     for (Contender& c : peer->contenders()) contenders.push_back(std::move(c));
     result.peers_about.push_back(peer->about());
+    if (!peer->driver().empty()) machine.opengl = peer->driver();
   }
   for (const auto& [name, variant] : variants)
     contenders.push_back({"trueshade", name, [&ours = *variant] { return ours.draw(); }});
   ProgressBar bar("timing " + spec, "frames");
-  std::vector<Timing> timings = contest(contenders, {}, [&bar](int done, int most) { bar.show(done, most); });
+  std::vector<Timing> timings =
+      contest(contenders, contest_rules(options), [&bar](int done, int most) { bar.show(done, most); });
   result.timing = std::move(timings[0]);
   for (size_t i = 1; i < contenders.size(); ++i)
     result.peers.push_back({contenders[i].name, contenders[i].strategy, std::move(timings[i]), {}});
+  result.load = load_between(before, load_sample());
+  result.clock_ghz = measured_clock_ghz();
+  result.reasons = reasons_of(result, execution, machine.cores);
   check_pictures(prepared, result.pipeline, execution, peers, result.peers);
   result.stats = frames.stats();
   result.floor = frame_floor(result.stats);
@@ -179,12 +208,28 @@ SceneTime measured(const BenchOptions& options, const std::string& spec, const E
 
 }  // namespace
 
+std::vector<std::string> BenchResult::all_reasons() const {
+  std::vector<std::string> all = reasons;
+  for (const SceneTime& scene : scenes)
+    for (const std::string& reason : scene.reasons)
+      all.push_back((scenes.size() > 1 ? scene.scene + ": " : "") + reason);
+  return all;
+}
+
+ContestRules contest_rules(const BenchOptions& options) {
+  if (options.quick) return {5, 400.0};
+  if (options.standard) return {100, 4000.0};
+  return {};
+}
+
 void bench(const BenchOptions& options) {
   if (options.ranks) return bench_ranks(options);
+  if (compared_results(options)) return;
   for (const std::string& peer : options.against)
     if (is_gl(peer)) designs_from_text(peer);
   const bool json_printed = options.json_file == "-";
-  for (const std::string& spec : options.scenes) check_pipeline(options_of(options, spec));
+  const std::vector<BenchOptions> rows = rows_of(options);
+  for (const BenchOptions& row : rows) check_pipeline(options_of(row));
   for (const auto& file : {options.json_file, options.report})
     if (file && *file != "-") check_writable(*file);
   BenchResult result;
@@ -194,17 +239,28 @@ void bench(const BenchOptions& options) {
   result.threads = thread_count(options.execution.threads);
   result.command = "trueshade" + options.command_line;
   result.simd = options.simd == "best" ? simd_targets().front() : options.simd;
-  for (const std::string& spec : options.scenes) {
-    result.scenes.push_back(measured(options, spec, result.execution));
+  result.standard = options.standard, result.quick = options.quick;
+  result.reasons = load_reasons(result.machine.load_before, "before this ran");
+  if (options.quick) result.reasons.push_back("--quick draws few frames");
+  std::vector<double> clocks{result.machine.clock_ghz};
+  for (const BenchOptions& row : rows) {
+    result.scenes.push_back(measured(row, result.execution, result.machine));
+    clocks.push_back(result.scenes.back().clock_ghz);
     say_notes(result.scenes.back().notes.lines);
     if (!json_printed)
-      print((result.scenes.size() == 1 ? bench_heading(result.machine, result.simd, result.threads) : "") +
+      print((result.scenes.size() == 1
+                 ? bench_heading(result.machine, result.simd, result.threads) + machine_text(result.machine)
+                 : "") +
             bench_text(result.scenes.back(), result));
   }
+  if (const std::string reason = clock_reason(clocks); !reason.empty()) result.reasons.push_back(reason);
   if (options.report) {
     const SceneTime& first = result.scenes.front();
-    result.scaling = scaling_curves(options, first.scene, first.stats.lights, result.execution);
+    result.scaling = scaling_curves(rows.front(), first.scene, first.stats.lights, result.execution);
+    const std::vector<std::string> reasons = scaling_reasons(result.scaling, result.machine.cores);
+    result.reasons.insert(result.reasons.end(), reasons.begin(), reasons.end());
   }
+  if (!json_printed) print((options.standard ? scores_text(result) : "") + reasons_text(result.reasons, ""));
   const auto write = [&](const std::string& path, const char* about, const std::string& text) {
     write_file(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
     say_written(path, about, json_printed ? StandardOutput::answer : StandardOutput::files);

@@ -6,6 +6,7 @@
 
 #include "bench/contest.h"
 #include "bench/floor.h"
+#include "bench/load.h"
 #include "bench/machine.h"
 #include "bench/picture_check.h"
 #include "cli/moving_frames.h"
@@ -40,6 +41,9 @@ struct SceneTime {
   std::vector<std::string> peers_about;
   std::optional<MovingTime> moving;
   Notes notes;
+  Load load;                         ///< until the last timed frame
+  double clock_ghz = 0;              ///< after it
+  std::vector<std::string> reasons;  ///< why these times are not to be quoted
 
   /// How much faster than on one core the frame would be on `cores`, by these costs and the tiles that it would have.
   double scheduled_speedup(int cores) const;
@@ -55,7 +59,9 @@ struct ScalingCurve {
   bool log_axis = false;
   struct Point {
     std::string label;
-    double x, ms;
+    double x;
+    Timing timing;
+    int threads = 0;  ///< where they are what is varied
   };
   std::vector<Point> points;
 };
@@ -68,12 +74,37 @@ struct BenchResult {
   std::vector<SceneTime> scenes;
   std::vector<ScalingCurve> scaling;  ///< empty unless a report was asked for
   std::string command;                ///< as it was given
+  bool standard = false, quick = false;
+  std::vector<std::string> reasons;  ///< why nothing of it is to be quoted
+
+  std::vector<std::string> all_reasons() const;  ///< those of scenes too, behind their names
 };
+
+inline constexpr int kStandard = 1;  ///< counts up where standard_rows() or scores() change
+
+/// What --standard times, a scene each, on the best SIMD target and against the others.
+std::vector<BenchOptions> standard_rows(const BenchOptions& options);
+struct Score {
+  std::string simd;
+  double value;
+};
+/// The geometric mean of frames a second over standard_rows(), by each row's median; a SIMD target each, best first.
+std::vector<Score> scores(const BenchResult& bench);
+std::string scores_text(const BenchResult& bench);
+std::string scores_json(const BenchResult& bench);
+
+/// How often frames are drawn: up to 15 times within 2.5 s a contender, unless options say otherwise.
+ContestRules contest_rules(const BenchOptions& options);
+
+/// Compares the results in options.scenes, if they are results: whether they are.
+bool compared_results(const BenchOptions& options);
 
 /// How frames of a scene scale with its lights, triangles, pixels, threads and SIMD targets, each curve's drawn in
 /// turn. `lights`: how many the scene has, which is among the numbers that are drawn.
 std::vector<ScalingCurve> scaling_curves(const BenchOptions& options, const std::string& scene, uint64_t lights,
                                          const Execution& execution);
+/// Why these are not to be quoted.
+std::vector<std::string> scaling_reasons(const std::vector<ScalingCurve>& curves, int cores);
 
 std::string formatted(double value, const char* format);  ///< by printf's format for one double
 
@@ -85,7 +116,11 @@ std::string rate_text(const SceneTime& scene);
 
 /// The machine, and what draws on it, in a line.
 std::string bench_heading(const Machine& machine, const std::string& simd, int threads);
+std::string machine_text(const Machine& machine);  ///< the line behind it: what the machine is, and how busy
 std::string machine_json(const Machine& machine);
+std::string load_json(const Load& load);
+std::string reasons_json(const std::vector<std::string>& reasons);
+std::string reasons_text(const std::vector<std::string>& reasons, const std::string& indent);
 std::string bench_text(const SceneTime& scene, const BenchResult& bench);  ///< one scene's lines
 std::string bench_json(const BenchResult& bench);
 std::string bench_page(const BenchResult& bench);

@@ -13,7 +13,7 @@ namespace trueshade {
 namespace {
 
 constexpr double kSlowMs = 1000.0;  ///< frames that take longer are not followed by ten times as much
-constexpr ContestRules kRules{7, 1000.0};
+constexpr ContestRules kRules{7, 1000.0}, kQuickRules{3, 300.0};
 
 Scene shown_scene(const PipelineOptions& options) {
   Scene scene = scene_of_options(options);
@@ -40,6 +40,7 @@ struct Step {
   std::string scene;
   Execution execution;
   std::optional<Size> size = {};
+  int threads = 0;  ///< where they are what is varied
 };
 
 /// All of a curve's frames are drawn in turn.
@@ -55,8 +56,9 @@ ScalingCurve curve_of(const BenchOptions& options, ScalingCurve curve, const std
     contenders.push_back({"trueshade", step.label, [&frames] { return frames.draw(); }});
     if (frames.draw() > kSlowMs) break;  // lights that end nowhere, every pixel
   }
-  const std::vector<Timing> timings = contest(contenders, kRules);
-  for (size_t i = 0; i < timings.size(); ++i) curve.points.push_back({steps[i].label, steps[i].x, timings[i].median()});
+  const std::vector<Timing> timings = contest(contenders, options.quick ? kQuickRules : kRules);
+  for (size_t i = 0; i < timings.size(); ++i)
+    curve.points.push_back({steps[i].label, steps[i].x, timings[i], steps[i].threads});
   return curve;
 }
 
@@ -81,7 +83,7 @@ std::vector<Step> thread_counts(const std::string& scene, Execution execution) {
   const int most = thread_count(0);
   for (int n = 1; n <= most; n = std::max(n + 1, std::min(2 * n, most))) {
     execution.threads = n;
-    steps.push_back({std::to_string(n), double(n), scene, execution});
+    steps.push_back({std::to_string(n), double(n), scene, execution, {}, n});
   }
   return steps;
 }
@@ -143,7 +145,7 @@ std::vector<std::pair<ScalingCurve, std::vector<Step>>> wanted_curves(const std:
   wanted.push_back({{"Threads, " + scene, "The same frame on fewer threads.", "threads", false, {}},
                     thread_counts(scene, execution)});
   wanted.push_back({{"SIMD targets, " + scene,
-                     "The same frame by each set of vector instructions that this CPU has.",
+                     "The same frame by each SIMD target that this build has and this CPU runs.",
                      "",
                      false,
                      {}},
@@ -152,6 +154,17 @@ std::vector<std::pair<ScalingCurve, std::vector<Step>>> wanted_curves(const std:
 }
 
 }  // namespace
+
+std::vector<std::string> scaling_reasons(const std::vector<ScalingCurve>& curves, int cores) {
+  std::vector<NamedTiming> rows;
+  for (const ScalingCurve& curve : curves)
+    for (const ScalingCurve::Point& point : curve.points)
+      rows.push_back({'"' + curve.title + "\" at " + point.label, &point.timing, point.threads});
+  std::vector<std::string> reasons;
+  for (const std::string& reason : {spread_reason(rows), threads_reason(rows, cores)})
+    if (!reason.empty()) reasons.push_back(reason);
+  return reasons;
+}
 
 std::vector<ScalingCurve> scaling_curves(const BenchOptions& options, const std::string& scene, uint64_t lights,
                                          const Execution& execution) {

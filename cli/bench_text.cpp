@@ -84,9 +84,19 @@ std::string moving_text(const MovingTime& moving) {
          time_row("moving, the same again", moving.again, "");
 }
 
+/// What JSON says of a time.
+void put_timing(JsonObject& json, const Timing& t) {
+  json.put("ms", t.median()).put("least_ms", t.least()).put("lower_quartile_ms", t.lower_quartile());
+  json.put("upper_quartile_ms", t.upper_quartile()).put("spread", t.spread()).put("frames", uint64_t(t.ms.size()));
+  JsonArray frames;
+  for (const double ms : t.ms) frames.add_raw(formatted(ms, "%.6g"));
+  json.put_raw("frame_ms", frames.text());
+}
+
 std::string moving_json(const MovingTime& moving) {
   JsonObject json;
   json.put("ms", moving.next.median()).put("again_ms", moving.again.median()).put("ratio", moving.ratio());
+  json.put("least_ms", moving.next.least()).put("again_least_ms", moving.again.least());
   return json.put("frames", uint64_t(moving.next.ms.size())).text();
 }
 
@@ -94,9 +104,8 @@ std::string scene_json(const SceneTime& s, const BenchResult& bench) {
   JsonArray peers;
   for (const PeerTime& peer : s.peers) {
     JsonObject row;
-    row.put("name", peer.name).put("strategy", peer.strategy).put("ms", peer.timing.median());
-    row.put("least_ms", peer.timing.least()).put("spread", peer.timing.spread());
-    row.put("frames", uint64_t(peer.timing.ms.size())).put("ratio", s.ratio(peer));
+    row.put("name", peer.name).put("strategy", peer.strategy).put("ratio", s.ratio(peer));
+    put_timing(row, peer.timing);
     if (peer.picture) {
       const PictureCheck& p = *peer.picture;
       row.put("picture_of", name_of(p.strategy)).put("rounding", blends_lights(p.strategy) ? "per light" : "once");
@@ -110,8 +119,9 @@ std::string scene_json(const SceneTime& s, const BenchResult& bench) {
       JsonObject().put("scene", s.scene).put("size", size_text(s.pipeline)).put("preset", s.pipeline.preset);
   json.put("strategy", name_of(s.pipeline.strategy)).put("tile", s.stats.tile);
   json.put("hash", "sha256:" + s.hash);
-  json.put("ms", s.timing.median()).put("least_ms", s.timing.least()).put("spread", s.timing.spread());
-  json.put("frames", uint64_t(s.timing.ms.size()));
+  put_timing(json, s.timing);
+  json.put_raw("not_to_be_quoted", reasons_json(s.reasons)).put_raw("load", load_json(s.load));
+  json.put("clock_ghz", s.clock_ghz);
   json.put("geometry_ms", f.core_ms.geometry()).put("visibility_ms", f.core_ms.visibility);
   json.put("surfaces_ms", f.core_ms.surfaces);
   json.put("light_ms", f.core_ms.light).put("store_ms", f.core_ms.store).put("lights_tested", f.lights_tested);
@@ -144,6 +154,13 @@ std::string scene_json(const SceneTime& s, const BenchResult& bench) {
   return json.put_raw("peers", peers.text()).text();
 }
 
+std::string point_json(const ScalingCurve::Point& point) {
+  JsonObject json;
+  json.put("label", point.label).put("x", point.x);
+  put_timing(json, point.timing);
+  return json.text();
+}
+
 }  // namespace
 
 std::string formatted(double value, const char* format) {
@@ -173,16 +190,6 @@ double SceneTime::scheduled_speedup(int cores) const {
   return ms_on(1) / ms_on(cores);
 }
 
-std::string bench_heading(const Machine& machine, const std::string& simd, int threads) {
-  return machine.cpu + ", " + std::to_string(machine.cores) + " cores at " + formatted(machine.clock_ghz, "%.2f") +
-         " GHz; Trueshade " + kVersion + " (" + kCommit + "), " + simd + ", " + std::to_string(threads) +
-         (threads == 1 ? " thread\n" : " threads\n");
-}
-
-std::string machine_json(const Machine& machine) {
-  return JsonObject().put("cpu", machine.cpu).put("cores", machine.cores).put("clock_ghz", machine.clock_ghz).text();
-}
-
 std::string bench_text(const SceneTime& s, const BenchResult& bench) {
   const FrameStats& f = s.stats;
   std::string text = "\n" + s.scene + "  " + s.pipeline.preset + "  " + size_text(s.pipeline) +
@@ -191,7 +198,7 @@ std::string bench_text(const SceneTime& s, const BenchResult& bench) {
   for (const PeerTime& peer : s.peers)
     text += time_row(peer.name + ' ' + peer.strategy, peer.timing,
                      formatted(s.ratio(peer), "%.2fx ours") + picture_text(peer));
-  text += fastest_text(s);
+  text += reasons_text(s.reasons, "  ") + fastest_text(s);
   if (s.moving) text += moving_text(*s.moving);
   text += "  visibility " + formatted(f.core_ms.visibility, "%.2f") + " ms, surfaces " +
           formatted(f.core_ms.surfaces, "%.2f") + " ms, light " + formatted(f.core_ms.light, "%.2f") + " ms, store " +
@@ -218,14 +225,15 @@ std::string bench_json(const BenchResult& bench) {
   for (const SceneTime& s : bench.scenes) scenes.add_raw(scene_json(s, bench));
   for (const ScalingCurve& curve : bench.scaling) {
     JsonArray points;
-    for (const auto& p : curve.points)
-      points.add_raw(JsonObject().put("label", p.label).put("x", p.x).put("ms", p.ms).text());
+    for (const auto& p : curve.points) points.add_raw(point_json(p));
     scaling.add_raw(
         JsonObject().put("title", curve.title).put("axis", curve.axis).put_raw("points", points.text()).text());
   }
   JsonObject json;
   json.put("version", kVersion).put("commit", kCommit).put_raw("machine", machine_json(bench.machine));
   json.put("threads", bench.threads).put("simd", bench.simd);
+  json.put_raw("not_to_be_quoted", reasons_json(bench.all_reasons())).put("quick", bench.quick);
+  if (bench.standard) json.put_raw("standard", scores_json(bench));
   json.put_raw("scenes", scenes.text());
   return json.put_raw("scaling", scaling.text()).text() + '\n';
 }

@@ -167,7 +167,8 @@ CommandTable bench_table(BenchOptions& options, BenchTexts& texts) {
   CommandTable table{
       "bench", "Time frames, in turn with others that draw the same: up to 15 of each, within some 2.5 s a contender"};
   add_values(table, "SCENE", "SCENE", options.scenes,
-             "Scenes as for render; without any builtin:city, rabbits, sphere and red");
+             "Scenes as for render; without any builtin:city, rabbits, sphere and red. Or two files that --json has "
+             "written, to compare them");
   table.open_group = "Output";
   add_value(table, "-o,--output", "FILE", options.report, "Report to write, .html; also times how frames scale");
   add_value(table, "--json", "FILE", options.json_file, "JSON document to write; - prints it instead of the text");
@@ -176,6 +177,9 @@ CommandTable bench_table(BenchOptions& options, BenchTexts& texts) {
   add_value(table, "--against", "PEERS", texts.against,
             "Peers in the same run, with commas: gl (every design) or gl=DESIGN+DESIGN, embree (visibility), "
             "and ours otherwise: strategy=S, target=F, view=V, threads=N, tile=N, simd=NAME, aov=PLANE+PLANE");
+  add_switch(table, "--standard", options.standard,
+             "Fixed built-in scenes and sizes on every SIMD target, and a score of each: some two minutes on 2 cores");
+  add_switch(table, "--quick", options.quick, "Draw few frames, for a look: figures that are not to be quoted");
   add_switch(
       table, "--moving", options.moving,
       "Also time frames of a sequence in which camera, lights and objects move, each against itself drawn again");
@@ -193,7 +197,12 @@ CommandTable bench_table(BenchOptions& options, BenchTexts& texts) {
   add_value(table, "--threads", "COUNT", texts.threads, "Threads, 0 for one a core").group = "Execution";
   add_simd(table, options.simd, "best, scalar, sse4, avx2 or avx512");
   add_limits(table, options.limits);
-  table.examples = {{"trueshade bench builtin:city --against gl", "Our frames and this machine's OpenGL, in turn."}};
+  table.details =
+      "Where others kept the machine busy, or frames of a kind took unlike times, each figure is followed by why it is "
+      "not to be quoted.";
+  table.examples = {{"trueshade bench builtin:city --against gl", "Our frames and this machine's OpenGL, in turn."},
+                    {"trueshade bench --standard --json here.json", "A score for each SIMD target."},
+                    {"trueshade bench here.json there.json", "What differs between two machines, or two commits."}};
   table.see_also = {"render"};
   table.finished = [&options, &texts]() -> Command { return finished(std::move(options), texts); };
   return table;

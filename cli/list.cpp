@@ -49,7 +49,7 @@ std::vector<Section> sections() {
   for (const ShippedModel& model : shipped_models()) models.entries.emplace_back(model.name, model.about);
   Section formats{"formats", "Formats", {}}, planes{"aovs", "Planes (--aov)", {}};
   Section views{"views", "Views (--view)", {}};
-  Section simd{"simd", "SIMD targets of this machine, best first (--simd)", {}};
+  Section simd{"simd", "SIMD targets of this build that this machine runs, best first (--simd)", {}};
   for (const BuiltinInfo& scene : builtin_scenes()) scenes.entries.emplace_back(scene.name, scene.description);
   for (const Preset& preset : presets()) rows.entries.emplace_back(preset.name, preset.source);
   for (const Format format : kFormats) formats.entries.emplace_back(info(format).name, "");
@@ -106,12 +106,11 @@ std::string glsl_type(programs::Type type, size_t components) {
   return components == 1 ? kScalar[size_t(type)] : kVector[size_t(type)] + std::to_string(components);
 }
 
-/// The program of a preset's light model, of a model that ships, or of a file. A preset that draws by a model that ships
-/// has that one's name.
+/// The program of a preset's light model, of a model that ships, or of a file. A preset that draws by a model that
+/// ships has that one's name.
 void find_program(const std::string& name, ProgramFacts& facts) {
-  const auto preset = std::find_if(presets().begin(), presets().end(), [&](const Preset& p) {
-    return p.name == name && !p.pipeline.light_program.used();
-  });
+  const auto preset = std::find_if(presets().begin(), presets().end(),
+                                   [&](const Preset& p) { return p.name == name && !p.pipeline.light_program.used(); });
   if (preset == presets().end()) {
     facts.program = light_program_of(name);
     if (names_shipped_model(name)) facts.about = shipped_model(name).about;

@@ -310,6 +310,18 @@ ExplainOptions finished(ExplainOptions options, const ExplainTexts& texts) {
 
 BenchOptions finished(BenchOptions options, const BenchTexts& texts) {
   set_camera(texts.camera, options);
+  for (const auto& [name, is_given] : {std::pair{"SCENE", !options.scenes.empty()},
+                                       {"--against", texts.against.has_value()},
+                                       {"--size", texts.size.has_value()},
+                                       {"--strategy", texts.strategy.has_value()},
+                                       {"--preset", options.preset.has_value()},
+                                       {"--pipeline", options.pipeline_file.has_value()},
+                                       {"--light-shader", options.light_shader.has_value()},
+                                       {"--simd", options.simd != "best"},
+                                       {"--ranks", options.ranks},
+                                       {"--moving", options.moving}})
+    if (options.standard && is_given)
+      throw usage(name, "--standard draws what is always the same", "leave one of them out");
   if (options.scenes.empty()) {
     options.scenes = {"builtin:city"};
     if (!options.ranks)
@@ -327,6 +339,7 @@ BenchOptions finished(BenchOptions options, const BenchTexts& texts) {
     throw usage("-o", "a report does not end like '" + *options.report + "'", "end the name in .html");
   for (const auto& [name, is_given] : {std::pair{"--against", !options.against.empty()},
                                        {"--moving", options.moving},
+                                       {"--quick", options.quick},
                                        {"-o", options.report.has_value()}})
     if (options.ranks && is_given) throw usage(name, "--ranks measures nothing of it", "leave one of them out");
   if (options.frames && !options.ranks)

@@ -299,9 +299,16 @@ void check_preset(const std::optional<std::string>& preset) {
 
 void check_simd(const std::string& option, const std::string& name) {
   const std::vector<std::string_view> simd = simd_targets();
-  if (name != "best" && std::find(simd.begin(), simd.end(), name) == simd.end())
-    throw usage(option, "this machine has no '" + name + "'",
-                did_you_mean(name, simd) + "one of: best " + joined(simd));
+  if (name == "best" || std::find(simd.begin(), simd.end(), name) != simd.end()) return;
+  const std::vector<std::string_view> built = built_simd_targets();
+  constexpr std::string_view kNames[] = {"avx512", "avx2", "sse4", "scalar"};
+  const std::string run_here = "one of: best " + joined(simd);
+  if (std::find(std::begin(kNames), std::end(kNames), name) == std::end(kNames))
+    throw usage(option, "there is no SIMD target '" + name + "'", did_you_mean(name, simd) + run_here);
+  if (std::find(built.begin(), built.end(), name) == built.end())
+    throw usage(option, "this build has no kernels for '" + name + "'",
+                run_here + "; or a build whose TRUESHADE_SIMD names it");
+  throw usage(option, "this machine's CPU does not run '" + name + "'", run_here);
 }
 
 }  // namespace trueshade

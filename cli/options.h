@@ -168,6 +168,8 @@ struct BenchOptions : PipelineOptions {
   std::vector<std::string> against;  ///< gl, gl=DESIGN+..., embree, and KEY=VALUE: ours drawn otherwise
   std::string simd = "best";         ///< stays alive for the execution
   Execution execution;
+  bool standard = false;                         ///< scenes and sizes are those of standard_rows()
+  bool quick = false;                            ///< few frames
   bool ranks = false;                            ///< how drawing scales with processes and machines, nothing else
   std::optional<FrameRange> frames;              ///< with `ranks`: frames of a sequence, not bands of a picture
   bool moving = false;                           ///< also frames of a sequence in which everything moves

@@ -141,6 +141,7 @@ trueshade_slow(4
   "cli:The whole command stays below the memory that five and eight million triangles were given"
   "gl:state.json carried out, call by call, draws the judge's own bytes under every formula and strategy")
 trueshade_slow(2
+  "cli:Beside programs that keep every core busy bench says, in text, JSON and page, that it is not to be quoted"
   "gl:trueshade glsl writes the user's text as it is, in GLSL that glslang takes, with its parameters' bytes"
   "gl:lavapipe draws many-lights as a program within a code of our frame of it"
   "gl:llvmpipe draws programs of every kind as we do"
@@ -183,6 +184,7 @@ trueshade_slow(2
   "shading:Planes of materials with maps of every kind are what the scalar renderer makes of them"
   "scenes:export: the lights of built-in scenes and of random ones are what extras.trueshade says")
 trueshade_slow(1
+  "cli:Two results of bench are compared: rows that were made slower or faster are found, and no other"
   "cli:A wrong map is convicted or refused"
   "cli:Raw video is the codes of the frames' PNGs, one frame after the other, in the format that its note names"
   "judge:A probe of SwiftShader tells how it differs from Mesa"

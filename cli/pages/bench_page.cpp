@@ -13,21 +13,32 @@ std::string card(const std::string& title, const std::string& sentence, const st
          "</figure>\n";
 }
 
+constexpr const char* kWhiskers =
+    " Whiskers go from the least time to the upper quartile, with an end at the lower one.";
+
 std::string about(const SceneTime& s) {
   return s.pipeline.preset + ", " + std::to_string(s.pipeline.width) + " x " + std::to_string(s.pipeline.height);
 }
 
+Whisker whisker(const Timing& t) { return {t.least(), t.lower_quartile(), t.upper_quartile()}; }
+
+std::string time_text(const Timing& t) {
+  const char* const format = t.median() < 100 ? "%.2f" : "%.1f";
+  return formatted(t.median(), format) + " ms, least " + formatted(t.least(), format);
+}
+
 std::string against_peers(const SceneTime& s) {
-  std::vector<Bar> bars{{"trueshade", s.timing.median(), formatted(s.timing.median(), "%.2f ms"), true}};
+  std::vector<Bar> bars{{"trueshade", s.timing.median(), time_text(s.timing), true, whisker(s.timing)}};
   for (const PeerTime& peer : s.peers)
     bars.push_back({peer.name + ' ' + peer.strategy, peer.timing.median(),
-                    formatted(peer.timing.median(), "%.1f ms") + formatted(s.ratio(peer), ", %.1fx") +
+                    time_text(peer.timing) + formatted(s.ratio(peer), ", %.1fx") +
                         (peer.picture && !peer.picture->right() ? ", another picture" : ""),
-                    false});
+                    false, whisker(peer.timing)});
   const std::string title = s.scene + ", " + about(s);
   return card(title,
-              s.peers.empty() ? "The median of " + std::to_string(s.timing.ms.size()) + " frames."
-                              : "Medians; x is how many times our time a peer takes.",
+              (s.peers.empty() ? "The median of " + std::to_string(s.timing.ms.size()) + " frames."
+                               : "Medians; x is how many times our time a peer takes.") +
+                  kWhiskers,
               bar_chart(bars, "ms a frame", "Time a frame of " + title));
 }
 
@@ -46,8 +57,8 @@ std::string scaling(const ScalingCurve& curve) {
   std::vector<ChartPoint> points;
   std::vector<Bar> bars;
   for (const auto& p : curve.points) {
-    points.push_back({p.x, p.ms, p.label});
-    bars.push_back({p.label, p.ms, formatted(p.ms, "%.2f ms"), false});
+    points.push_back({p.x, p.timing.median(), p.label, whisker(p.timing)});
+    bars.push_back({p.label, p.timing.median(), time_text(p.timing), false, whisker(p.timing)});
   }
   return card(curve.title, curve.about,
               curve.axis.empty() ? bar_chart(bars, "ms a frame", curve.title)
@@ -57,6 +68,24 @@ std::string scaling(const ScalingCurve& curve) {
 std::string row(const std::string& name, const std::string& value, const std::string& meaning) {
   return "<tr><td>" + escaped(name) + "<td class=number>" + escaped(value) + "<td class=meaning>" + escaped(meaning) +
          '\n';
+}
+
+std::string machine_table(const BenchResult& bench) {
+  const Machine& m = bench.machine;
+  std::string html = "<div class=scroll><table>\n";
+  const auto used = [](const Load& load) {
+    return load.is_known ? formatted(load.others, "%.2f of ") + std::to_string(load.cpus) : std::string("not known");
+  };
+  html += row("machine", "", machine_text(m));
+  if (!m.opengl.empty()) html += row("OpenGL", "", m.opengl);
+  html +=
+      row("cores used by others, before", used(m.load_before), "In a fifth of a second in which nothing was drawn.");
+  for (const SceneTime& s : bench.scenes)
+    html += row("cores used by others, " + s.scene, used(s.load),
+                "Until its last timed frame; " + formatted(s.load.own, "%.2f") + " were used by this process, " +
+                    formatted(s.load.stolen, "%.2f") + " by the host of a virtual machine; then " +
+                    formatted(s.clock_ghz, "%.2f") + " GHz.");
+  return html + "</table></div>\n";
 }
 
 struct CountRow {
@@ -114,6 +143,9 @@ std::string counts(const SceneTime& s, const BenchResult& bench) {
 std::string bench_page(const BenchResult& bench) {
   std::string html = page_head("Benchmark") + heading_part("Benchmark") + "<p class=quiet>" +
                      escaped(bench_heading(bench.machine, bench.simd, bench.threads)) + "</p>\n";
+  for (const std::string& reason : bench.all_reasons())
+    html += "<p class=note>Not to be quoted: " + escaped(reason) + ".</p>\n";
+  if (bench.standard) html += "<pre>" + escaped(scores_text(bench)) + "</pre>\n";
   html +=
       "<h2>Time a frame</h2>\n<p class=quiet>All that is in a chart was drawn in turn in one run, after the picture "
       "was checked.</p>\n<div class=charts>\n";
@@ -123,7 +155,7 @@ std::string bench_page(const BenchResult& bench) {
       "drawn in turn.</p>\n<div class=charts>\n";
   for (const ScalingCurve& curve : bench.scaling) html += scaling(curve);
   for (const SceneTime& s : bench.scenes) html += scheduled(s);
-  html += "</div>\n<h2>Counts and times</h2>\n";
+  html += "</div>\n<h2>The machine</h2>\n" + machine_table(bench) + "<h2>Counts and times</h2>\n";
   for (const SceneTime& s : bench.scenes) html += counts(s, bench);
   return html + reproduce_part(bench.command) + page_end();
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 #include <vector>
 
 #include "cli/pages/page.h"
@@ -33,6 +34,15 @@ std::string grid_line(double x, double y, char direction, double length) {
   char line[160];
   std::snprintf(line, sizeof line, "<path d=\"M%.1f %.1f %c%.1f\" stroke=\"var(--line)\" stroke-width=\"0.5\"/>\n", x,
                 y, direction, length);
+  return line;
+}
+
+/// A line between two points, as whiskers are drawn.
+std::string stroke(double x0, double y0, double x1, double y1) {
+  char line[160];
+  std::snprintf(line, sizeof line,
+                "<path class=\"whisker\" d=\"M%.1f %.1f L%.1f %.1f\" stroke=\"var(--text)\" stroke-width=\"1.2\"/>\n",
+                x0, y0, x1, y1);
   return line;
 }
 
@@ -104,7 +114,7 @@ std::vector<double> ticks_of(const Axis& axis) {
 std::string bar_chart(std::span<const Bar> bars, const std::string& unit, const std::string& about) {
   double most = 0.0, labels = 0.0, texts = 0.0;
   for (const Bar& bar : bars) {
-    most = std::max(most, bar.value);
+    most = std::max({most, bar.value, bar.whisker ? bar.whisker->upper : 0.0});
     labels = std::max(labels, width_of(bar.label)), texts = std::max(texts, width_of(bar.text));
   }
   const double left = labels + 10, room = std::max(kWidth - left - texts - 10, kWidth * 0.1);
@@ -125,8 +135,19 @@ std::string bar_chart(std::span<const Bar> bars, const std::string& unit, const 
     std::snprintf(rect, sizeof rect,
                   "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%d\" rx=\"3\" fill=\"%s\"/>\n", left, y, length,
                   kBarHeight - 6, bars[i].accented ? "var(--accent)" : "var(--bar)");
-    svg += rect + text_at(left - 8, y + 13, bars[i].label, "end") +
-           text_at(left + length + 6, y + 13, bars[i].text, "start", "var(--quiet)");
+    svg += rect;
+    double end = left + length;
+    if (bars[i].whisker && most > 0) {
+      const auto x = [&](double value) { return left + value / most * room; };
+      const Whisker& w = *bars[i].whisker;
+      const double middle = y + (kBarHeight - 6) / 2.0;
+      svg += stroke(x(w.least), middle, x(w.upper), middle);
+      for (const auto& [value, half] : {std::pair{w.least, 3.0}, {w.lower, 5.0}, {w.upper, 5.0}})
+        svg += stroke(x(value), middle - half, x(value), middle + half);
+      end = std::max(end, x(w.upper));
+    }
+    svg += text_at(left - 8, y + 13, bars[i].label, "end") +
+           text_at(end + 6, y + 13, bars[i].text, "start", "var(--quiet)");
   }
   return svg + "</svg>\n";
 }
@@ -137,7 +158,8 @@ std::string line_chart(std::span<const ChartPoint> points, const std::string& ax
   Axis x{points[0].x, points[0].x, log_axes}, y{log_axes ? points[0].y : 0.0, points[0].y, log_axes};
   for (const ChartPoint& p : points) {
     x.low = std::min(x.low, p.x), x.high = std::max(x.high, p.x);
-    y.low = std::min(y.low, p.y), y.high = std::max(y.high, p.y);
+    const Whisker w = p.whisker.value_or(Whisker{p.y, p.y, p.y});
+    y.low = std::min({y.low, p.y, log_axes ? w.least : y.low}), y.high = std::max({y.high, p.y, w.upper});
   }
   const double room_x = kWidth - kLeft - kRight, room_y = kPlotHeight - kTop - kBottom;
   std::string svg = open_svg(kWidth, kPlotHeight, about), path, marks;
@@ -149,8 +171,17 @@ std::string line_chart(std::span<const ChartPoint> points, const std::string& ax
     path += mark;
     std::snprintf(mark, sizeof mark, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" fill=\"var(--accent)\"/>\n", px, py);
     marks += mark;
+    double top = py;
+    if (p.whisker) {
+      const auto at = [&](double value) { return kTop + (1 - y.at(value)) * room_y; };
+      const Whisker& w = *p.whisker;
+      marks += stroke(px, at(w.least), px, at(w.upper));
+      for (const auto& [value, half] : {std::pair{w.least, 3.0}, {w.lower, 5.0}, {w.upper, 5.0}})
+        marks += stroke(px - half, at(value), px + half, at(value));
+      top = std::min(top, at(w.upper));
+    }
     labels.add(px, kPlotHeight - kBottom + 18, p.label, "var(--text)");
-    labels.add(px, py - 8, short_number(p.y) + " ms", "var(--quiet)");
+    labels.add(px, top - 8, short_number(p.y) + " ms", "var(--quiet)");
   }
   char frame[200];
   std::snprintf(frame, sizeof frame, "<path d=\"M%d %d V%d H%d\" fill=\"none\" stroke=\"var(--line)\"/>\n", kLeft,

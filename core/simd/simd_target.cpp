@@ -85,7 +85,8 @@ SimdScope::SimdScope(std::string_view name) {
   if (found == runnable().end()) {
     std::string known;
     for (const Target& target : runnable()) known += ", " + std::string(target.name);
-    throw Error(ErrorKind::usage, "simd", "this machine does not run " + std::string(name), "one of best" + known);
+    throw Error(ErrorKind::usage, "simd", "this build on this machine does not run " + std::string(name),
+                "one of best" + known);
   }
   before_ = simd_target();
   choose(found->is);

@@ -8,7 +8,7 @@ namespace trueshade {
 
 enum class SimdTarget : uint8_t;
 
-/// SIMD targets this machine runs, best first: of `avx512 avx2 sse4 scalar`.
+/// SIMD targets that this build has and this machine runs, best first: of `avx512 avx2 sse4 scalar`.
 std::vector<std::string_view> simd_targets();
 
 /// SIMD targets that the kernels are compiled for, whether this machine runs them or not, best first.

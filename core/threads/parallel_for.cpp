@@ -1,5 +1,7 @@
 #include "core/threads/parallel_for.h"
 
+#include <sched.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -14,13 +16,20 @@ namespace trueshade {
 
 namespace {
 std::atomic<int> granted{0};
+
+/// Those that this process may run on; since glibc 2.35 hardware_concurrency() counts the others too.
+int usable_cores() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (sched_getaffinity(0, sizeof set, &set) == 0) return std::max(1, CPU_COUNT(&set));
+  return std::max(1, int(std::thread::hardware_concurrency()));
+}
 }  // namespace
 
 void grant_threads(int threads) { granted = threads; }
 
 int thread_count(int requested) {
-  static const int cores = std::max(1, int(std::thread::hardware_concurrency()));  // asking takes 2 us
-  return requested > 0 ? requested : granted > 0 ? int{granted} : cores;
+  return requested > 0 ? requested : granted > 0 ? int{granted} : usable_cores();  // ranks undo a binding as they join
 }
 
 namespace {

@@ -5,7 +5,7 @@
 
 namespace trueshade {
 
-/// Threads that `requested` stands for: 0 is one a core.
+/// Threads that `requested` stands for: 0 is one for each core that this process may run on.
 int thread_count(int requested);
 
 /// What is called for each task of a loop: any function object that takes an int, not owned.

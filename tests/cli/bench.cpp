@@ -1,9 +1,13 @@
 // What `trueshade bench` says and writes. No time is a verdict here.
 
 #include <algorithm>
+#include <atomic>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <thread>
 
 #include "tests/catch.hpp"
 #include "tests/cli/refused.h"
@@ -178,7 +182,7 @@ TEST_CASE("bench's report shows peers, tiles' costs on more cores, and how frame
 TEST_CASE("What scales in bench's report is the scene that was measured, but for what is varied") {
   const ScratchFolder folder;
   const Outcome bench = run_command({"bench", "builtin:city,lights=3,objects=7,radius=constant", "--size", "32x24",
-                                     "--json", "b.json", "-o", "b.html"},
+                                     "--quick", "--json", "b.json", "-o", "b.html"},
                                     folder.path(""));
   INFO(bench.err);
   REQUIRE(bench.exit_code == 0);
@@ -263,8 +267,200 @@ TEST_CASE("bench --ranks measures the bands of the picture that render draws, an
   }
 }
 
+TEST_CASE("Beside programs that keep every core busy bench says, in text, JSON and page, that it is not to be quoted") {
+  const ScratchFolder folder;
+  std::atomic<bool> stop{false};
+  std::vector<std::thread> spinning;
+  for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
+    spinning.emplace_back([&stop] {
+      while (!stop) {
+      }
+    });
+  const Outcome bench = run_command(
+      {"bench", "builtin:circle,lights=3", "--size", "64x48", "--quick", "--json", "b.json", "-o", "b.html"},
+      folder.path(""));
+  stop = true;
+  for (std::thread& thread : spinning) thread.join();
+  INFO(bench.err);
+  REQUIRE(bench.exit_code == 0);
+  const std::string before = "other programs used ";
+  CHECK(bench.out.find("\nnot to be quoted: " + before) != std::string::npos);
+  CHECK(contents(folder.path("b.html")).find("<p class=note>Not to be quoted: " + before) != std::string::npos);
+  const auto json = nlohmann::json::parse(contents(folder.path("b.json")));
+  REQUIRE(json["not_to_be_quoted"].size() >= 1);
+  CHECK(json["not_to_be_quoted"][0].get<std::string>().starts_with(before));
+  CHECK(json["not_to_be_quoted"][0].get<std::string>().ends_with("before this ran"));
+  const auto& load = json["machine"]["load_before"];
+  CHECK(load["others"].get<double>() > 0.5 * load["cores"].get<double>());
+  CHECK(json["scenes"][0]["load"]["others"].get<double>() > 0.0);
+}
+
+TEST_CASE("On one pinned core bench draws by one thread, and measures what others use of that core") {
+  const Outcome bench = run_command({"bench", "builtin:circle,lights=3", "--size", "64x48", "--quick", "--json", "-"},
+                                    ".", "taskset -cp $(taskset -cp $$ | sed 's/.*: //; s/[-,].*//') $$ >/dev/null");
+  INFO(bench.err);
+  REQUIRE(bench.exit_code == 0);
+  CHECK(bench.err.empty());
+  const auto json = nlohmann::json::parse(bench.out);
+  CHECK(json["threads"] == 1);
+  CHECK(json["machine"]["cores"] == 1);
+  CHECK(json["machine"]["load_before"]["cores"] == 1);
+  CHECK(json["machine"]["load_before"]["others"].get<double>() < 1.05);
+}
+
+TEST_CASE("bench's JSON says what the machine is, and keeps the time of every frame") {
+  const Outcome bench =
+      run_command({"bench", "builtin:circle,lights=3", "--size", "64x48", "--against", "threads=1", "--json", "-"});
+  INFO(bench.err);
+  REQUIRE(bench.exit_code == 0);
+  const auto json = nlohmann::json::parse(bench.out);
+  const auto& machine = json["machine"];
+  for (const char* key : {"cpu", "vendor", "os", "kernel", "compiler", "c_library", "date"}) {
+    CAPTURE(key);
+    CHECK_FALSE(machine[key].get<std::string>().empty());
+  }
+  CHECK(machine["hardware_threads"].get<int>() >= machine["cores"].get<int>());
+  CHECK(machine["memory_mib"].get<double>() > 100.0);
+  CHECK(machine["virtual"].is_boolean());
+  CHECK(machine["caches"].is_array());
+  CHECK(std::regex_match(machine["date"].get<std::string>(),
+                         std::regex("\\d{4}-\\d\\d-\\d\\dT\\d\\d:\\d\\d:\\d\\d[-+]\\d{4}")));
+  const auto& scene = json["scenes"][0];
+  for (const auto* row : {&scene, &scene["peers"][0]}) {
+    const auto frames = (*row)["frame_ms"].get<std::vector<double>>();
+    CHECK(frames.size() == (*row)["frames"].get<size_t>());
+    CHECK(std::is_sorted(frames.begin(), frames.end()));
+    CHECK(frames.front() == Approx((*row)["least_ms"].get<double>()));
+    CHECK(frames[frames.size() / 2] == Approx((*row)["ms"].get<double>()));
+    CHECK((*row)["lower_quartile_ms"].get<double>() <= (*row)["upper_quartile_ms"].get<double>());
+  }
+}
+
+TEST_CASE("Two results of bench are compared: rows that were made slower or faster are found, and no other") {
+  const ScratchFolder folder;
+  const Outcome bench = run_command({"bench", "builtin:circle,lights=3", "--size", "64x48", "--against",
+                                     "threads=1,tile=8,simd=scalar", "--json", "run.json"},
+                                    folder.path(""));
+  INFO(bench.err);
+  REQUIRE(bench.exit_code == 0);
+  const auto written = nlohmann::json::parse(contents(folder.path("run.json")));
+  // Frames of 10 ms and a little more, times a factor a row.
+  const auto planted = [&](const char* name, double shift, std::vector<double> factors) {
+    auto json = written;
+    auto& scene = json["scenes"][0];
+    const auto set = [&](nlohmann::json& row, double factor) {
+      row["frame_ms"] = nlohmann::json::array();
+      for (int i = 0; i < 15; ++i) row["frame_ms"].push_back(factor * (10 + 0.1 * i + shift));
+    };
+    set(scene, factors[0]);
+    for (size_t i = 0; i < 3; ++i) set(scene["peers"][i], factors[i + 1]);
+    std::ofstream(folder.path(name)) << json;
+  };
+  planted("a.json", 0.0, {1, 1, 1, 1});
+  planted("b.json", 0.05, {1, 1.2, 0.8, 1.02});
+  const Outcome text = run_command({"bench", "a.json", "b.json", "--json", "c.json"}, folder.path(""));
+  INFO(text.err);
+  REQUIRE(text.exit_code == 0);
+  CHECK(text.out.find("\n2 of 4 rows differ beyond noise") != std::string::npos);
+  const auto rows = nlohmann::json::parse(contents(folder.path("c.json")))["rows"];
+  REQUIRE(rows.size() == 4);
+  const char* verdicts[] = {"no difference beyond noise", "slower", "faster", "no difference beyond noise"};
+  const double ratios[] = {1, 1.2, 0.8, 1.02};
+  for (size_t i = 0; i < 4; ++i) {
+    CAPTURE(rows[i]);
+    CHECK(rows[i]["verdict"] == verdicts[i]);
+    CHECK(rows[i]["ratio"].get<double>() == Approx(ratios[i]).epsilon(0.01));
+    CHECK(rows[i]["low"].get<double>() < ratios[i]);
+    CHECK(rows[i]["high"].get<double>() > ratios[i]);
+    CHECK(rows[i]["same_picture"] == true);
+  }
+  const Outcome same = run_command({"bench", "a.json", "a.json"}, folder.path(""));
+  CHECK(same.out.find("\n0 of 4 rows differ beyond noise") != std::string::npos);
+  for (const bool busy : {false, true}) {
+    auto run = written;
+    run["not_to_be_quoted"] = nlohmann::json::array();
+    if (busy) run["not_to_be_quoted"].push_back("it was busy");
+    std::ofstream(folder.path("busy.json")) << run;
+    const Outcome said = run_command({"bench", "busy.json", "busy.json"}, folder.path(""));
+    CHECK((said.out.find("   not to be quoted: it was busy\n") != std::string::npos) == busy);
+    CHECK((said.out.find("\nwhat else the machines did may be the cause") != std::string::npos) == busy);
+  }
+
+  auto few = written, other = written;
+  few["scenes"][0]["frame_ms"] = {1.0, 2.0};
+  few["scenes"][0]["hash"] = "sha256:0";
+  few["scenes"][0]["peers"].erase(0);
+  std::ofstream(folder.path("few.json")) << few;
+  const Outcome unlike = run_command({"bench", "run.json", "few.json"}, folder.path(""));
+  CHECK(unlike.out.find("too few frames to tell") != std::string::npos);
+  CHECK(unlike.out.find("their hashes differ") != std::string::npos);
+  CHECK(unlike.out.find("only run.json has builtin:circle,lights=3") != std::string::npos);
+
+  other["scenes"][0].erase("frame_ms");
+  std::ofstream(folder.path("older.json")) << other;
+  std::ofstream(folder.path("scene.json")) << R"({"machine": 1})";
+  const auto refused = [&](std::vector<std::string> files, int code, const char* about) {
+    files.insert(files.begin(), "bench");
+    check_refused(run_command(files, folder.path("")), code, about);
+  };
+  refused({"run.json", "older.json"}, 3, "older.json: /scenes/0: the times of single frames are missing");
+  refused({"run.json", "scene.json"}, 3, "scene.json: this is no result of bench, and run.json is one");
+  refused({"run.json", "builtin:city"}, 3, "builtin:city: this is no result of bench");
+  refused({"run.json"}, 2, "compared by twos");
+  refused({"run.json", "run.json", "--size", "3x3"}, 2, "--size");
+  refused({"run.json", "run.json", "-o", "x.html"}, 2, "-o");
+  refused({"scene.json"}, 3, "scene.json");
+}
+
+TEST_CASE("bench --standard draws fixed scenes on every SIMD target, and a score is the mean that it says", "[slow]") {
+  const Outcome bench = run_command({"bench", "--standard", "--quick", "--json", "-"});
+  INFO(bench.err);
+  REQUIRE(bench.exit_code == 0);
+  const auto json = nlohmann::json::parse(bench.out);
+  const auto& standard = json["standard"];
+  CHECK(standard["version"] == 1);
+  REQUIRE(json["scenes"].size() == 7);
+  CHECK(json["scenes"][6]["size"] == "1920x1080");
+  const auto& reasons = json["not_to_be_quoted"];
+  CHECK(std::find(reasons.begin(), reasons.end(), "--quick draws few frames") != reasons.end());
+  REQUIRE(standard["targets"].size() == json["scenes"][0]["peers"].size() + 1);
+  CHECK(standard["targets"][0]["simd"] == json["simd"]);
+  CHECK(standard["score"] == standard["targets"][0]["score"]);
+  for (size_t target = 0; target < standard["targets"].size(); ++target) {
+    double product = 1;
+    for (const auto& scene : json["scenes"])
+      product *= 1000 / (target == 0 ? scene : scene["peers"][target - 1])["ms"].get<double>();
+    CHECK(standard["targets"][target]["score"].get<double>() == Approx(std::pow(product, 1.0 / 7)));
+    if (target > 0)
+      CHECK(json["scenes"][0]["peers"][target - 1]["strategy"] ==
+            "simd=" + standard["targets"][target]["simd"].get<std::string>());
+  }
+}
+
+TEST_CASE("Of a SIMD target that cannot be had it is said whether the build lacks it or the CPU") {
+  const auto simd = nlohmann::json::parse(run_command({"--version", "--json"}).out)["simd"];
+  const auto has = [](const nlohmann::json& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  for (const std::string name : {"avx512", "avx2", "sse4", "scalar"}) {
+    CAPTURE(name, simd);
+    const Outcome outcome = run_command({"render", "builtin:cornell", "--size", "8x8", "--hash", "--simd", name});
+    if (has(simd["runs_here"], name))
+      CHECK(outcome.exit_code == 0);
+    else
+      check_refused(outcome, 2,
+                    has(simd["built"], name) ? "this machine's CPU does not run '" + name + "'"
+                                             : "this build has no kernels for '" + name + "'");
+  }
+}
+
 TEST_CASE("bench refuses what it cannot do, in one line") {
   const ScratchFolder folder;
+  check_refused(run_command({"bench", "--standard", "builtin:city"}), 2, "SCENE");
+  check_refused(run_command({"bench", "--standard", "--size", "64x64"}), 2, "--size");
+  check_refused(run_command({"bench", "--standard", "--simd", "scalar"}), 2, "--simd");
+  check_refused(run_command({"bench", "--standard", "--ranks"}), 2, "--ranks");
+  check_refused(run_command({"bench", "--ranks", "--quick"}), 2, "--quick");
   check_refused(run_command({"bench", "--ranks", "--against", "gl"}), 2, "--against");
   check_refused(run_command({"bench", "--ranks", "--moving"}), 2, "--moving");
   check_refused(run_command({"bench", "--ranks", "-o", "x.html"}), 2, "-o");
@@ -290,7 +486,7 @@ TEST_CASE("bench refuses what it cannot do, in one line") {
   check_refused(run_command({"bench", "--against", "=avx2"}), 2, "chosen by ''");
   check_refused(run_command({"bench", "city"}), 3, "builtin:city");
   check_refused(run_command({"bench", "builtin:nowhere"}), 3, "nowhere");
-  check_refused(run_command({"bench", "--simd", "neon"}), 2, "neon");
+  check_refused(run_command({"bench", "--simd", "neon"}), 2, "no SIMD target 'neon'");
   check_refused(run_command({"bench", "--size", "0x1"}), 2, "size");
   check_refused(run_command({"bench", "-o", "x.png"}), 2, ".html");
   check_refused(run_command({"bench", "builtin:cornell", "--json", folder.path("absent/x.json")}), 5, "folder");

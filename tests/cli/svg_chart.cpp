@@ -48,6 +48,26 @@ TEST_CASE("Bars leave room for the longest label and the longest text beside the
   }
 }
 
+TEST_CASE("Whiskers reach from the least time to the upper quartile, and the text stands behind them") {
+  const std::vector<Bar> bars = {{"a", 50.0, "50 ms", false, Whisker{40.0, 45.0, 100.0}}};
+  const std::string svg = bar_chart(bars, "ms a frame", "a chart");
+  std::smatch bar, line;
+  REQUIRE(std::regex_search(svg, bar, std::regex("<rect x=\"([0-9.]+)\" y=\"[0-9.]+\" width=\"([0-9.]+)\"")));
+  REQUIRE(std::regex_search(svg, line, std::regex("whisker\" d=\"M([0-9.]+) [0-9.]+ L([0-9.]+) ")));
+  const double left = std::stod(bar[1]), unit = std::stod(bar[2]) / 50;
+  CHECK(std::stod(line[1]) == Approx(left + 40 * unit).margin(0.1));
+  CHECK(std::stod(line[2]) == Approx(left + 100 * unit).margin(0.1));
+  for (const Text& text : texts_of(svg))
+    if (text.letters == "50 ms") CHECK(text.left > std::stod(line[2]));
+  const std::vector<ChartPoint> points = {{1, 5, "one", Whisker{4, 5, 50}}, {2, 6, "two"}};
+  for (const bool logarithmic : {false, true}) {
+    const std::string curve = line_chart(points, "axis", logarithmic, "a chart");
+    REQUIRE(std::regex_search(curve, line, std::regex("whisker\" d=\"M[0-9.]+ ([0-9.]+) L[0-9.]+ ([0-9.]+)\"")));
+    CHECK(std::stod(line[1]) > std::stod(line[2]));
+    CHECK(std::stod(line[2]) == Approx(40.0));  // the top of the plot
+  }
+}
+
 TEST_CASE("Labels of points that lie close together do not cover each other, and the first is there") {
   std::vector<ChartPoint> points;
   for (int i = 0; i < 12; ++i) points.push_back({1.0 + 0.01 * i, 5.0 + 0.01 * i, "label" + std::to_string(i)});

@@ -1,0 +1,265 @@
+// `bench A.json B.json`: two results of bench, of two machines or two commits.
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <tuple>
+
+#include "bench/comparison.h"
+#include "cli/bench.h"
+#include "cli/commands.h"
+#include "cli/json_text.h"
+#include "cli/option_values.h"
+#include "cli/written_files.h"
+#include "core/error.h"
+#include "core/image_files/image_io.h"
+#include "scenes/files/content/scene_files.h"
+#include "scenes/json/json_value.h"
+
+namespace trueshade {
+namespace {
+
+constexpr uint64_t kMostBytes = uint64_t(64) << 20;
+constexpr size_t kMostFrames = 500;   ///< of a row
+constexpr double kConfidence = 0.99;  ///< of each row's interval
+/// Runs of one program differ too, by where memory lies and what the machine did before, which frames of one run do not
+/// show: smaller differences are called none.
+constexpr double kBetweenRuns = 1.03;
+
+/// Who drew what.
+struct RowName {
+  std::string scene, who;
+  auto operator<=>(const RowName&) const = default;
+};
+
+struct Row {
+  RowName name;
+  std::string hash;  ///< of the scene's picture
+  std::vector<double> ms;
+
+  double median() const { return ms[ms.size() / 2]; }
+};
+
+struct Result {
+  std::string file, about;
+  std::vector<std::string> reasons;
+  std::vector<Row> rows;
+  std::optional<std::pair<int, double>> score;  ///< of which standard
+};
+
+enum class Verdict { none, slower, faster, too_few };
+constexpr std::string_view kVerdicts[] = {"no difference beyond noise", "slower", "faster", "too few frames to tell"};
+
+struct ComparedRow {
+  RowName name;
+  double before_ms, after_ms;
+  RatioInterval ratio;
+  Verdict verdict;
+  bool is_same_picture;
+};
+
+Verdict verdict_of(const RatioInterval& r) {
+  if (r.low == 0) return Verdict::too_few;
+  if (r.low > kBetweenRuns) return Verdict::slower;
+  return r.high < 1 / kBetweenRuns ? Verdict::faster : Verdict::none;
+}
+
+std::vector<double> times_of(const json::Node& row, const std::string& file) {
+  const auto frames = row.find("frame_ms");
+  if (!frames)
+    throw Error(ErrorKind::bad_input, file + ": " + row.pointer(), "the times of single frames are missing",
+                "write it again by this version's `trueshade bench --json FILE`");
+  std::vector<double> ms;
+  for (size_t i = 0, count = frames->array(1, kMostFrames).size(); i < count; ++i)
+    ms.push_back(frames->element(i).number(json::kSmallest, json::kLargest));
+  std::sort(ms.begin(), ms.end());
+  return ms;
+}
+
+std::string text_in(const json::Node& node, std::string_view key) { return node.member(key).string(); }
+
+Result result_of(const json::Value& value, const std::string& file) {
+  const json::Node root(value, file);
+  const json::Node machine = root.member("machine"), scenes = root.member("scenes");
+  Result result;
+  result.file = file;
+  result.about = text_in(machine, "cpu") + ", " + std::to_string(machine.member("cores").integer(1, 1 << 20)) +
+                 (machine.member("cores").integer(1, 1 << 20) == 1 ? " core at " : " cores at ") +
+                 formatted(machine.member("clock_ghz").number(0, 1e3), "%.2f") + " GHz; Trueshade " +
+                 text_in(root, "version") + " (" + text_in(root, "commit") + "), " + text_in(root, "simd") + ", " +
+                 std::to_string(root.member("threads").integer(1, 1 << 20)) +
+                 (root.member("threads").integer(1, 1 << 20) == 1 ? " thread" : " threads");
+  if (const auto date = machine.find("date")) result.about += "; " + date->string();
+  if (const auto reasons = root.find("not_to_be_quoted"))
+    for (size_t i = 0, count = reasons->array(0, 1000).size(); i < count; ++i)
+      result.reasons.push_back(reasons->element(i).string());
+  if (const auto standard = root.find("standard"))
+    result.score = {int(standard->member("version").integer(1, 1 << 20)),
+                    standard->member("score").number(json::kSmallest, json::kLargest)};
+  for (size_t i = 0, count = scenes.array(1, 10000).size(); i < count; ++i) {
+    const json::Node scene = scenes.element(i);
+    const std::string name = text_in(scene, "scene") + "  " + text_in(scene, "preset") + "  " + text_in(scene, "size") +
+                             "  " + text_in(scene, "strategy");
+    const std::string hash = text_in(scene, "hash");
+    result.rows.push_back({{name, "trueshade"}, hash, times_of(scene, file)});
+    const json::Node peers = scene.member("peers");
+    for (size_t k = 0, most = peers.array(0, 10000).size(); k < most; ++k) {
+      const json::Node peer = peers.element(k);
+      result.rows.push_back(
+          {{name, text_in(peer, "name") + ' ' + text_in(peer, "strategy")}, hash, times_of(peer, file)});
+    }
+  }
+  return result;
+}
+
+/// What a file is, if it has what every result of bench has; a scene has neither member.
+std::optional<json::Value> bench_result(const std::string& file) {
+  std::error_code error;
+  if (!file.ends_with(".json") || !std::filesystem::is_regular_file(file, error)) return {};
+  if (std::filesystem::file_size(file, error) > kMostBytes || error) return {};
+  const Bytes bytes = read_user_file(file, kMostBytes, "");
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (text.find("\"machine\"") == std::string_view::npos || text.find("\"scenes\"") == std::string_view::npos)
+    return {};
+  json::Value value = json::parse(text, file);
+  const auto* members = std::get_if<std::unique_ptr<json::Members>>(&value.is);
+  const auto has = [&](std::string_view key) {
+    return std::any_of((*members)->begin(), (*members)->end(), [key](const auto& m) { return m.first == key; });
+  };
+  if (members == nullptr || !has("machine") || !has("scenes") || !has("simd")) return {};
+  return value;
+}
+
+struct Comparison {
+  Result before, after;
+  std::vector<ComparedRow> rows;
+  std::vector<std::pair<std::string, RowName>> lonely;  ///< rows that one file alone has
+};
+
+Comparison compared(Result before, Result after) {
+  Comparison c{std::move(before), std::move(after), {}, {}};
+  std::map<RowName, const Row*> others;
+  for (const Row& row : c.after.rows) others[row.name] = &row;
+  for (const Row& row : c.before.rows) {
+    const auto other = others.find(row.name);
+    if (other == others.end()) {
+      c.lonely.emplace_back(c.before.file, row.name);
+      continue;
+    }
+    const Row& now = *other->second;
+    const RatioInterval ratio = ratio_interval(row.ms, now.ms, kConfidence);
+    c.rows.push_back({row.name, row.median(), now.median(), ratio, verdict_of(ratio), row.hash == now.hash});
+    others.erase(other);
+  }
+  for (const Row& row : c.after.rows)
+    if (others.contains(row.name)) c.lonely.emplace_back(c.after.file, row.name);
+  return c;
+}
+
+bool have_scores(const Comparison& c) {
+  return c.before.score && c.after.score && c.before.score->first == c.after.score->first;
+}
+
+std::string result_text(const char* letter, const Result& result) {
+  return std::string(letter) + "  " + result.file + ": " + result.about + '\n' + reasons_text(result.reasons, "   ");
+}
+
+std::string comparison_text(const Comparison& c) {
+  std::string text = result_text("A", c.before) + result_text("B", c.after), scene;
+  size_t differing = 0;
+  for (const ComparedRow& row : c.rows) {
+    if (row.name.scene != scene) {
+      scene = row.name.scene;
+      text += '\n' + scene + (row.is_same_picture ? "" : "  (two pictures: their hashes differ)") + '\n';
+    }
+    std::string who = row.name.who;
+    who.resize(std::max(who.size(), size_t(26)), ' ');
+    text += "  " + who + formatted(row.before_ms, " %9.2f ms ") + formatted(row.after_ms, "%9.2f ms  ") +
+            formatted(row.ratio.ratio, "B takes %.3f times as long") +
+            (row.verdict == Verdict::too_few
+                 ? ""
+                 : formatted(row.ratio.low, " (%.3f to ") + formatted(row.ratio.high, "%.3f)")) +
+            ": " + std::string(kVerdicts[size_t(row.verdict)]) + '\n';
+    differing += row.verdict == Verdict::slower || row.verdict == Verdict::faster;
+  }
+  for (const auto& [file, row] : c.lonely) text += "  only " + file + " has " + row.scene + ", " + row.who + '\n';
+  if (have_scores(c))
+    text += "\nstandard " + std::to_string(c.before.score->first) + ": scores " +
+            formatted(c.before.score->second, "%.1f and ") + formatted(c.after.score->second, "%.1f, ") +
+            formatted(c.after.score->second / c.before.score->second, "B's is %.3f times A's\n");
+  text += '\n' + std::to_string(differing) + " of " + std::to_string(c.rows.size()) +
+          " rows differ beyond noise: with " + formatted(100 * kConfidence, "%.0f") + " % confidence by more than " +
+          formatted(100 * (kBetweenRuns - 1), "%.0f %%\n");
+  if (!c.before.reasons.empty() || !c.after.reasons.empty())
+    text +=
+        "what else the machines did may be the cause: figures of one of the files, or of both, are not to be quoted\n";
+  return text;
+}
+
+std::string result_json(const Result& result) {
+  return JsonObject()
+      .put("file", result.file)
+      .put("about", result.about)
+      .put_raw("not_to_be_quoted", reasons_json(result.reasons))
+      .text();
+}
+
+std::string comparison_json(const Comparison& c) {
+  JsonArray rows, lonely;
+  for (const ComparedRow& row : c.rows) {
+    JsonObject json;
+    json.put("scene", row.name.scene).put("who", row.name.who);
+    json.put("ms_a", row.before_ms).put("ms_b", row.after_ms).put("ratio", row.ratio.ratio);
+    json.put("low", row.ratio.low).put("high", row.ratio.high).put("same_picture", row.is_same_picture);
+    rows.add_raw(json.put("verdict", kVerdicts[size_t(row.verdict)]).text());
+  }
+  for (const auto& [file, row] : c.lonely)
+    lonely.add_raw(JsonObject().put("file", file).put("scene", row.scene).put("who", row.who).text());
+  JsonObject json;
+  json.put_raw("a", result_json(c.before)).put_raw("b", result_json(c.after));
+  json.put("confidence", kConfidence).put("between_runs", kBetweenRuns).put_raw("rows", rows.text());
+  if (have_scores(c)) json.put("score_ratio", c.after.score->second / c.before.score->second);
+  return json.put_raw("only_one_has", lonely.text()).text() + '\n';
+}
+
+}  // namespace
+
+bool compared_results(const BenchOptions& options) {
+  std::vector<std::pair<std::string, json::Value>> results;
+  std::string other;
+  for (const std::string& file : options.scenes) {
+    if (auto value = bench_result(file))
+      results.emplace_back(file, std::move(*value));
+    else
+      other = file;
+  }
+  if (results.empty()) return false;
+  if (!other.empty())
+    throw Error(ErrorKind::bad_input, other, "this is no result of bench, and " + results.front().first + " is one",
+                "name two files that `trueshade bench --json FILE` wrote");
+  if (results.size() != 2)
+    throw usage("SCENE", "results of bench are compared by twos, and here are " + std::to_string(results.size()),
+                "name two files that `trueshade bench --json FILE` wrote");
+  for (const auto& [name, is_given] : {std::pair{"-o", options.report.has_value()},
+                                       {"--against", !options.against.empty()},
+                                       {"--moving", options.moving},
+                                       {"--quick", options.quick},
+                                       {"--size", options.size.has_value()},
+                                       {"--preset", options.preset.has_value()},
+                                       {"--strategy", options.strategy.has_value()},
+                                       {"--simd", options.simd != "best"}})
+    if (is_given) throw usage(name, "two results are compared, and nothing is drawn", "leave it out");
+  const Comparison c =
+      compared(result_of(results[0].second, results[0].first), result_of(results[1].second, results[1].first));
+  if (options.json_file != "-") print(comparison_text(c));
+  if (!options.json_file) return true;
+  const std::string json = comparison_json(c);
+  if (*options.json_file == "-") {
+    print(json);
+  } else {
+    write_file(*options.json_file, {reinterpret_cast<const uint8_t*>(json.data()), json.size()});
+    say_written(*options.json_file, "JSON", StandardOutput::files);
+  }
+  return true;
+}
+
+}  // namespace trueshade
