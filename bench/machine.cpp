@@ -45,7 +45,10 @@ std::string os_name() {
 
 std::string kernel_name() {
   utsname name{};
-  return uname(&name) == 0 ? std::string(name.sysname) + ' ' + name.release + ' ' + name.machine : "unknown";
+  if (uname(&name) != 0) return "unknown";
+  // What follows the version may name whoever built the kernel.
+  const std::string release(name.release);
+  return std::string(name.sysname) + ' ' + release.substr(0, release.find('-')) + ' ' + name.machine;
 }
 
 /// CPUID's leaf 0x40000000 has 12 letters there.
