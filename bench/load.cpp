@@ -48,7 +48,7 @@ std::string number(double value, const char* format) {
   return text;
 }
 
-std::string percent(double share) { return number(100 * share, share < 0.1 ? "%.1f %%" : "%.0f %%"); }
+std::string percent(double share) { return number(100 * share, share < 0.2 ? "%.1f %%" : "%.0f %%"); }
 
 std::string cores(double used, int of) {
   return number(used, used < 0.095 ? "%.2f of " : "%.1f of ") + std::to_string(of) + (of == 1 ? " core" : " cores");
@@ -131,7 +131,8 @@ Load load_between(const LoadSample& from, const LoadSample& to) {
   const double busy_s = to.times->busy_s - from.times->busy_s, own_s = to.own_s - from.own_s;
   const double counting_s = to.tick_s * to.cpus;         // a counter is off by up to a tick
   load.is_known = busy_s > 0 || own_s < 5 * counting_s;  // some containers show counters that stand still
-  load.others = std::max(0.0, busy_s - own_s - counting_s) / load.seconds;
+  load.others =
+      std::clamp((busy_s - own_s - counting_s) / load.seconds, 0.0, double(to.cpus));  // clocks differ a little
   load.stolen = std::max(0.0, to.times->stolen_s - from.times->stolen_s) / load.seconds;
   return load;
 }

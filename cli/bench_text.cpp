@@ -36,8 +36,9 @@ std::string schedule_text(const SceneTime& s) {
 
 std::string time_row(const std::string& who, const Timing& t, const std::string& ratio) {
   char line[256];
-  std::snprintf(line, sizeof line, "  %-26s %9.2f ms  least %9.2f  spread %4.1f %%  of %2zu  %s\n", who.c_str(),
-                t.median(), t.least(), 100.0 * t.spread(), t.ms.size(), ratio.c_str());
+  const std::string spread = t.ms.size() < 2 ? "   -  " : formatted(100.0 * t.spread(), "%4.1f %%");
+  std::snprintf(line, sizeof line, "  %-26s %9.2f ms  least %9.2f  spread %s  of %2zu  %s\n", who.c_str(), t.median(),
+                t.least(), spread.c_str(), t.ms.size(), ratio.c_str());
   return line;
 }
 

@@ -73,7 +73,7 @@ CommandTable validate_table(ValidationOptions& options, ValidationTexts& texts) 
   add_driver(table, options.driver);
   add_choice(table, "--profile", "NAME|FILE", options.held_to,
              "Hold the driver to this profile instead of what OpenGL promises of any: a file .json that `trueshade "
-             "probe` wrote, or",
+             "probe` wrote, or one of:",
              oracle::kDriverProfileNames);
   add_value(table, "--subpixel-bits", "COUNT", texts.subpixel_bits,
             "Fractional bits of the driver's window coordinates, 4 to 16; else what it says, 4 for a capture");

@@ -8,6 +8,7 @@
 
 #include "cli/json_text.h"
 #include "cli/option_values.h"
+#include "cli/preparation.h"
 #include "core/fp_env.h"
 #include "core/image_files/png_codes.h"
 #include "core/srgb.h"
@@ -112,6 +113,7 @@ struct MeasuredLight {
   /// Ascending, of each covered pixel: its luminance over that of its colour, or over 0.04 where that is less. White
   /// surfaces in the light of a scene that is shown as it is have about 1.
   std::vector<double> received;
+  std::vector<double> shown;  ///< their luminance, ascending
 
   double quantile(double share) const {
     return received.empty() ? 0.0 : received[size_t(share * double(received.size() - 1))];
@@ -134,8 +136,8 @@ double luminance_at(const Image& image, int x, int y) {
 /// clusters once, and only where something is measured.
 class LightMeter {
  public:
-  LightMeter(const Pipeline& pipeline, const ClusteredScene* stored, Scene& scene)
-      : pipeline_(small(pipeline)), scene_(scene), stored_(stored) {}
+  LightMeter(const Pipeline& pipeline, const CameraChanges& camera, const ClusteredScene* stored, Scene& scene)
+      : pipeline_(small(pipeline)), camera_(camera_of(scene, camera, pipeline)), scene_(scene), stored_(stored) {}
 
   /// Of what lies in a cache file: before more than frames of it are read.
   void check_stored() {
@@ -147,20 +149,25 @@ class LightMeter {
     check_stored();
     if (!prepared_) prepared_.emplace(scene_);
     const std::vector<Light> lights = scene_.lights;
+    const std::vector<Instance> instances = scene_.instances;
+    const Camera camera = scene_.camera;
     fit_lights_of_ours(scene_, pipeline_);
+    camera_.see(scene_);
     const std::string planes[] = {"albedo", "id.object"};
     const Frame frame = render_frame(*prepared_, pipeline_, {}, planes);
-    scene_.lights = lights;
+    scene_.lights = lights, scene_.instances = instances, scene_.camera = camera;
     const FpScope fp;
     const Image &albedo = frame.aovs[0].image, &object = frame.aovs[1].image;
     MeasuredLight light;
     for (int y = 0; y < object.height; ++y)
       for (int x = 0; x < object.width; ++x) {
         if (object.code(x, y, 0) == 0) continue;
-        const double received = luminance_at(frame.color, x, y) / std::max(luminance_at(albedo, x, y), 0.04);
-        light.received.push_back(received >= 0.0 && std::isfinite(received) ? received : 0.0);
+        const double shown = luminance_at(frame.color, x, y);
+        light.shown.push_back(shown >= 0.0 && std::isfinite(shown) ? shown : 0.0);
+        light.received.push_back(light.shown.back() / std::max(luminance_at(albedo, x, y), 0.04));
       }
     std::sort(light.received.begin(), light.received.end());
+    std::sort(light.shown.begin(), light.shown.end());
     return light;
   }
 
@@ -177,6 +184,7 @@ class LightMeter {
   }
 
   const Pipeline pipeline_;
+  const ChangedCamera camera_;
   Scene& scene_;
   const ClusteredScene* stored_;
   std::optional<PreparedScene> prepared_;
@@ -216,15 +224,40 @@ void append_soft_light(Scene& scene, double factor) {
   scene.lights.push_back(ours.lights.back());
 }
 
-void change_lights(const std::string& choice, LightMeter& meter, Scene& scene) {
+/// A choice of --lights, and how many times as bright what it adds is; nothing: as beside() measures.
+struct LightChoice {
+  std::string name;
+  std::optional<double> factor;
+};
+
+LightChoice light_choice_of(const std::string& text) {
+  const size_t colon = text.find(':');
+  LightChoice choice{text.substr(0, colon), std::nullopt};
+  if (std::find(std::begin(kLightChoices), std::end(kLightChoices), choice.name) == std::end(kLightChoices))
+    throw unknown_name("--lights", "there is no choice", text, kLightChoices);
+  if (colon == std::string::npos) return choice;
+  constexpr double kMost = 1e12;
+  double factor = 0.0;
+  const auto [end, error] = std::from_chars(text.data() + colon + 1, text.data() + text.size(), factor);
+  const bool adds = choice.name == "add" || choice.name == "soft";
+  if (!adds || error != std::errc() || end != text.data() + text.size() || !(factor >= 0.0 && factor <= kMost))
+    throw usage("--lights", "'" + text + "' is no choice with a factor", "add:2.5, or soft:2.5, up to 1e12");
+  choice.factor = factor;
+  return choice;
+}
+
+/// Sets the text to the choice with its factor.
+void change_lights(std::string& text, LightMeter& meter, Scene& scene) {
+  const auto [choice, given] = light_choice_of(text);
   if (has_ours_alone(scene) && choice != "none") return;
   if (choice == "none" || choice == "three") remove_lights(scene);
   if (choice != "keep" && choice != "none") meter.check_stored();
   if (choice == "three") append_lights_of_ours(scene, 1.0);
   if (choice != "soft" && choice != "add") return;
-  const double factor = beside(meter.measure());
+  const double factor = given ? *given : beside(meter.measure());
   const FpScope fp;
   choice == "add" ? append_lights_of_ours(scene, factor) : append_soft_light(scene, factor);
+  text = choice + ':' + json_number(factor);
 }
 
 /// What a model's own lights call for: nothing, or a choice of --lights.
@@ -247,13 +280,16 @@ std::optional<std::string> missing_lights(LightMeter& meter, Scene& scene) {
   return "soft";
 }
 
-/// Stops, to an eighth, by which white surfaces in the middle of the received light show as half of white.
+/// Stops, to an eighth, by which white surfaces in the middle of the received light show as half of white; more where
+/// dark surfaces would leave nothing to see.
 double automatic_stops(const MeasuredLight& light) {
-  constexpr double kShown = 0.5, kSteps = 8.0;
+  constexpr double kShown = 0.5, kLeastShown = 0.1, kSteps = 8.0;
   const auto lit = std::upper_bound(light.received.begin(), light.received.end(), kNearlyBlack * light.bright());
   if (lit == light.received.end()) return 0.0;
   const double median = *(lit + (light.received.end() - lit) / 2);
-  return std::clamp(std::round(kSteps * log2_of(kShown / median)) / kSteps, -kMostStops, kMostStops);
+  const double bright = light.shown[size_t(0.9 * double(light.shown.size() - 1))];
+  const double factor = std::max(kShown / median, bright > 0.0 ? kLeastShown / bright : 0.0);
+  return std::clamp(std::round(kSteps * log2_of(factor)) / kSteps, -kMostStops, kMostStops);
 }
 
 /// Whether a model's picture would be burnt or black as it is.
@@ -269,7 +305,7 @@ void choose_exposure(const Pipeline& pipeline, ChosenLooks chosen, LightMeter& m
   const MeasuredLight light = meter.measure();
   const FpScope fp;
   if (!asked && !calls_for_exposure(light)) return;
-  looks.exposure = json_number(automatic_stops(light));
+  looks.exposure = json_number(has_ours_alone(scene) ? 0.0 : automatic_stops(light));
   if (!looks.tone_map && floats) looks.tone_map = "filmic";
   if (!asked)
     scene.notes.push_back("PNGs and pages show 2^" + *looks.exposure +
@@ -311,7 +347,7 @@ void add_looks(CommandTable& table, Looks& looks) {
             "linear light; or none, which is transparent");
   add_choice(table, "--lights", "CHOICE", looks.lights,
              "keep the scene's; soft adds light from all sides, add lights of ours; three of ours in their place; or "
-             "none",
+             "none; add:FACTOR and soft:FACTOR say how many times as bright",
              kLightChoices);
   add_value(table, "--exposure", "STOPS", looks.exposure,
             "Show 2^STOPS of the light in PNGs and pages; auto finds it by the surfaces that are seen");
@@ -327,9 +363,7 @@ void check_looks(const Looks& looks) {
   if (looks.background) background_of(*looks.background);
   if (looks.exposure) stops_of(*looks.exposure);
   if (looks.tone_map) curve_of(*looks.tone_map);
-  const auto choices = std::span(kLightChoices);
-  if (looks.lights && std::find(choices.begin(), choices.end(), *looks.lights) == choices.end())
-    throw unknown_name("--lights", "there is no choice", *looks.lights, kLightChoices);
+  if (looks.lights) light_choice_of(*looks.lights);
 }
 
 void set_samples(const Looks& looks, Pipeline& pipeline) {
@@ -361,7 +395,7 @@ Looks bring_to_looks(const PipelineOptions& options, const Pipeline& pipeline, C
                 "the image's format " + std::string(info(image_format(pipeline)).name) +
                     " holds no light above 1 that could be rolled off",
                 "add --target rgba16f");
-  LightMeter meter(pipeline, stored, scene);
+  LightMeter meter(pipeline, options.camera, stored, scene);
   if (!looks.lights && chosen == ChosenLooks::by_scene) looks.lights = missing_lights(meter, scene);
   if (looks.lights) change_lights(*looks.lights, meter, scene);
   choose_exposure(pipeline, chosen, meter, scene, looks);

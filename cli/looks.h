@@ -12,6 +12,7 @@ namespace trueshade {
 
 struct ClusteredScene;
 
+/// `soft` and `add` with how many times as bright the lights are that they add: `add:2.5`.
 inline constexpr std::string_view kLightChoices[] = {"keep", "soft", "add", "three", "none"};
 
 /// The rows of all of them, under a heading of their own.

@@ -319,7 +319,10 @@ BenchOptions finished(BenchOptions options, const BenchTexts& texts) {
                                        {"--light-shader", options.light_shader.has_value()},
                                        {"--simd", options.simd != "best"},
                                        {"--ranks", options.ranks},
-                                       {"--moving", options.moving}})
+                                       {"--moving", options.moving},
+                                       {"a camera of choice", options.camera.any()},
+                                       {"--camera", options.parts.camera.has_value()},
+                                       {"--animation", options.parts.animation.has_value()}})
     if (options.standard && is_given)
       throw usage(name, "--standard draws what is always the same", "leave one of them out");
   if (options.scenes.empty()) {

@@ -67,7 +67,10 @@ SceneToRender::SceneToRender(const RenderOptions& given, const Execution& execut
   if (options.resume && (!is_streamed(options, pipeline) || options.outputs.empty() || options.numbered()))
     throw Error(ErrorKind::usage, "--resume", "one large picture that goes into files can be gone on with",
                 "leave it out: a picture over 16384 pixels a side, or of more than 67108864, is large");
-  options.looks = bring_to_looks(options, pipeline, ChosenLooks::by_scene, scene, cached.clusters.get());
+  RenderOptions seen = options;
+  if (options.turntable)
+    seen.camera = turntable(scene, options.camera, *options.turntable, aspect_of(pipeline)).front();
+  options.looks = bring_to_looks(seen, pipeline, ChosenLooks::by_scene, scene, cached.clusters.get());
   fit_lights_of_ours(scene, pipeline);
   if (is_streamed(options, pipeline)) return;  // its bands are as high as memory allows
   validate_drawn_size(pipeline, options.execution.region);

@@ -20,6 +20,7 @@
 #include "cli/validation.h"
 #include "cli/vulkan_capture.h"
 #include "cli/written_files.h"
+#include "core/file_ending.h"
 #include "core/image_files/image_io.h"
 #include "core/image_files/picture_file.h"
 #include "core/printable_text.h"
@@ -138,6 +139,24 @@ void check_outputs(const ValidationOptions& options) {
 
 }  // namespace
 
+/// What a file of ours says that its picture was brought to; nothing of files of others.
+static Looks looks_of_capture(const CaptureFiles& files, std::vector<std::string>& notes) {
+  for (const ChannelFile& file : files.files) {
+    if (!has_ending(file.path, ".exr") && !has_ending(file.path, ".png")) continue;
+    for (const auto& [key, value] : read_image_info(file.path).metadata) {
+      if (key != "trueshade:looks") continue;
+      try {
+        const Looks looks = looks_of_text(value);
+        notes.push_back("as the capture says of itself, the scene is judged with" + looks_text(looks));
+        return looks;
+      } catch (const Error&) {
+        notes.push_back("what the capture says of its looks is of no version that is known");
+      }
+    }
+  }
+  return {};
+}
+
 bool judge_opengl(const ValidationOptions& options) {
   check_pipeline(options);
   check_outputs(options);
@@ -148,11 +167,13 @@ bool judge_opengl(const ValidationOptions& options) {
   if (options.capture.given()) files = capture_files_of(options.capture, options.limits);
   activity->now("reading the scene");
   Scene scene = scene_of_options(options);
-  const Pipeline asked = pipeline_of(options, scene);
-  // An engine's picture has the lights and the background of the file.
-  const Looks looks = bring_to_looks(options, asked, files ? ChosenLooks::never : ChosenLooks::by_scene, scene);
+  Pipeline asked = pipeline_of(options, scene);
+  if (files && !options.size) asked.width = files->width(), asked.height = files->height();
+  // An engine's picture has the lights and the background of the file; one of ours says what it has.
+  ValidationOptions as_captured = options;
+  if (files && looks_text(options.looks).empty()) as_captured.looks = looks_of_capture(*files, v.notes);
+  const Looks looks = bring_to_looks(as_captured, asked, files ? ChosenLooks::never : ChosenLooks::by_scene, scene);
   v.pipeline = with_planes_of_program(asked);
-  if (files && !options.size) v.pipeline.width = files->width(), v.pipeline.height = files->height();
   show(scene, options.camera, v.pipeline, options.time);
   check_memory(scene, v.pipeline, {}, {}, judging_memory(options, v.pipeline));
   if (names_vulkan(options.driver)) v.profile = *oracle::profile_named("vulkan");

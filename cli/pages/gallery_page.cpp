@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "core/fp_env.h"
 #include "core/image_files/image_io.h"
+#include "core/printable_text.h"
 
 namespace trueshade {
 namespace {
@@ -121,8 +122,9 @@ std::string row_part(const PictureRow& row, const FolderComparison& folders, con
                      const std::string& gallery, size_t bytes) {
   const Seen pictures = seen(row, folders, options);
   const std::string state(name_of(row.state)), verdict = passes(row) ? "good" : "bad";
-  std::string html = "<article class=\"pair " + verdict + "\" data-state=" + state + " data-name=\"" +
-                     escaped(row.name) + "\"><h3>" + escaped(row.name) + " <span class=" + verdict + ">" + state +
+  const std::string name = printable(row.name, Lines::one);  // a name of a file may be no text
+  std::string html = "<article class=\"pair " + verdict + "\" data-state=" + state + " data-name=\"" + escaped(name) +
+                     "\"><h3>" + escaped(name) + " <span class=" + verdict + ">" + state +
                      (row.is_accepted ? ", accepted" : "") + "</span></h3>\n";
   int side = kLargestSide;
   if (passes(row)) {

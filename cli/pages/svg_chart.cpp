@@ -12,7 +12,7 @@ namespace trueshade {
 namespace {
 
 constexpr int kWidth = 640, kBarHeight = 24;
-constexpr double kFontSize = 13, kLetterWidth = 7.2;  // the width of a wide font, so that no text is cut off
+constexpr double kFontSize = 13, kLetterWidth = 8.3;  // the width of a wide font, so that no text is cut off
 constexpr int kPlotHeight = 244, kLeft = 56, kRight = 56, kTop = 40, kBottom = 44;
 constexpr int kInset = 34;  // of the first point from the axis, so that its text covers none of the axis's
 

@@ -269,11 +269,55 @@ TEST_CASE("A model whose lights leave it black gets light, and says so") {
     CHECK_FALSE(has(pictures.render(scene, {"--preset", "gltf", "-o", "x.png"}).err, "added"));
 }
 
+TEST_CASE("What a model lacks is measured through the camera that the picture is seen with") {
+  const Pictures pictures;
+  int added = 0;
+  for (const char* side : {"0,10", "180,10"})
+    added += has(pictures.render("behind.gltf", {"--orbit", side, "-o", "x.png"}).err, "are added") ? 1 : 0;
+  CHECK(added == 1);  // the light shines on one of its sides
+  const Outcome table =
+      pictures.run({"render", "behind.gltf", "--size", "60x45", "--turntable", "2", "-o", "t_##.png"});
+  CHECK(table.exit_code == 0);
+  const auto lights_of = [&](const std::string& file) {
+    const std::string looks = pictures.looks_of(file);
+    return looks.substr(0, looks.find(" --exposure"));
+  };
+  CHECK(lights_of("t_00.png") == lights_of("t_01.png"));
+}
+
+TEST_CASE("Lights of ours fit a screen under an exposure that is found, and what is added has a factor") {
+  const Pictures pictures;
+  pictures.write(
+      "dark.ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n-1 0 0 9 9 9\n1 0 0 9 9 9\n0 2 0 9 9 9\n3 0 1 2\n");
+  const Image plain = pictures.picture("dark.ply", {}), found = pictures.picture("dark.ply", {"--exposure", "auto"});
+  CHECK(plain.texels == found.texels);
+  CHECK(pictures.hash("lit.gltf", {"--lights", "add:1"}) != pictures.hash("lit.gltf", {"--lights", "add:2"}));
+  CHECK(pictures.hash("lit.gltf", {"--lights", "add:0"}) == pictures.hash("lit.gltf", {"--lights", "keep"}));
+}
+
+TEST_CASE("A capture that was drawn with looks is judged by them") {
+  const Pictures pictures;
+  const std::string planes = "depth,position,normal,albedo,specular,emission,id.object,id.material";
+  for (const char* scene : {"lit.gltf", "behind.gltf"}) {
+    pictures.render(scene, {"-q", "-o", "capture.exr", "--aov", planes});
+    const Outcome judged =
+        pictures.run({"validate", scene, "--gbuffer", "capture.exr", "--subpixel-bits", "8", "--quick"});
+    INFO(scene << judged.out << judged.err);
+    CHECK(judged.exit_code == 0);
+    CHECK(has(judged.out + judged.err, "as the capture says of itself, the scene is judged with --background "));
+  }
+}
+
 TEST_CASE("What a picture looks like is in its file, and compare draws it again by it") {
   const Pictures pictures;
   const std::vector<std::vector<std::string>> all = {{"scene.json", "--lights", "three", "--background", "#102030"},
                                                      {"scene.json", "--lights", "add"},
                                                      {"behind.gltf"},
+                                                     {"behind.gltf", "--orbit", "20,10"},
+                                                     {"metal.gltf", "--lights", "soft:0.5"},
                                                      {"metal.gltf"},
                                                      {"sun.gltf"},
                                                      {"lit.gltf", "--lights", "none", "--background", "0.25,0.5,1"}};
@@ -333,6 +377,8 @@ TEST_CASE("Looks that mean nothing are refused before anything is drawn") {
       {{"--background", "1,-2,3"}, "--background: '1,-2,3'"},
       {{"--background", "1,2,nan"}, "--background: '1,2,nan'"},
       {{"--exposure", "bright"}, "--exposure: 'bright' is no number of stops from -40 to 40"},
+      {{"--lights", "keep:2"}, "--lights: 'keep:2' is no choice with a factor"},
+      {{"--lights", "add:much"}, "--lights: 'add:much' is no choice with a factor"},
       {{"--exposure", "41"}, "--exposure: '41'"},
       {{"--lights", "four"}, "--lights: there is no choice 'four'"},
       {{"--tone-map", "aces"}, "--tone-map: there is no curve 'aces'"},
