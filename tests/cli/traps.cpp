@@ -197,7 +197,8 @@ TEST_CASE("A mistake on the command line is found before the scene is even looke
   };
   refused({"render", "absent.json"}, 2, "nothing would come of it");
   refused({"render", "absent.json", "-o", "x.png", "--aov", "depth"}, 2, "EXR");
-  refused({"render", "absent.json", "-o", "absent/x.png"}, 5, "absent/x.png");
+  folder.write("file", "no folder");
+  refused({"render", "absent.json", "-o", "file/x.png"}, 5, "file/x.png");
   folder.write("torn.json", R"({"width": )");
   refused({"render", "absent.json", "--hash", "--pipeline", "torn.json"}, 3, "torn.json");
   refused({"render", "absent.json", "--hash", "--pipeline", "none.json"}, 5, "none.json");
