@@ -174,7 +174,7 @@ bool judge_opengl(const ValidationOptions& options) {
   if (files && looks_text(options.looks).empty()) as_captured.looks = looks_of_capture(*files, v.notes);
   const Looks looks = bring_to_looks(as_captured, asked, files ? ChosenLooks::never : ChosenLooks::by_scene, scene);
   v.pipeline = with_planes_of_program(asked);
-  show(scene, options.camera, v.pipeline, options.time);
+  show(scene, options.camera, asked, options.time);
   check_memory(scene, v.pipeline, {}, {}, judging_memory(options, v.pipeline));
   if (names_vulkan(options.driver)) v.profile = *oracle::profile_named("vulkan");
   if (options.held_to) v.profile = profile_of(*options.held_to);

@@ -151,7 +151,7 @@ faults() {
 
   # What rank 0 finds ends the others at once.
   local words
-  for words in "render nosuch.json --frames 0-3" "render builtin:red --frames 0-3 -o none/x.png" \
+  for words in "render nosuch.json --frames 0-3" "render builtin:red --frames 0-3 -o /dev/null/x.png" \
     "bench --ranks nosuch.json" "bench --ranks --frames 0-1 --size 17000x16 builtin:red" "batch nosuch.json"; do
     SECONDS=0 status=0
     mpi -n 3 "$trueshade" $words >out 2>err || status=$?
