@@ -101,7 +101,7 @@ TEST_CASE("A clock that changes, frames that spread or are few, and one thread t
   CHECK(spread_reason(std::vector<NamedTiming>{{"a", &even}}).empty());
   CHECK(
       spread_reason(std::vector<NamedTiming>{{"a", &even}, {"b", &wide}, {"c", &wider}}) ==
-      "the middle half of the frames of c spreads over 950 % of their median, where 10 % is the limit; 1 other is over "
+      "the middle half of the frames of c spreads over 950 % of their median, where 10.0 % is the limit; 1 other is over "
       "it too");
   const Timing once = timing({10}), enough = timing({1, 1, 1, 1, 1});
   CHECK(frames_reason(std::vector<NamedTiming>{{"a", &enough}, {"b", &once}}) ==
