@@ -369,7 +369,7 @@ void check_looks(const Looks& looks) {
 void set_samples(const Looks& looks, Pipeline& pipeline) {
   if (!looks.samples) return;
   PostChain& post = pipeline.post;
-  const bool had_chain = post.active();  // with an output of its own
+  const bool had_chain = post.active();  // then its output is the pipeline's own
   post.samples = samples_a_side(*looks.samples);
   if (had_chain || !post.active()) return;
   const FormatInfo target = info(pipeline.target);

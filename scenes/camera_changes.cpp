@@ -13,7 +13,7 @@
 namespace trueshade {
 namespace {
 
-constexpr double kFarBelow = 50.0;    // far planes: where a ground is that nobody is to see
+constexpr double kFarBelow = 50.0;    // a ground that is seen from below is moved down by so many far planes
 constexpr double kLeastDepth = 1e-4;  // of a near plane: its share of the far one's
 
 glm::dvec3 vertical_of(const Scene& scene) {
