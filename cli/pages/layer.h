@@ -54,6 +54,7 @@ struct PageLayer {
 
 /// An image's texels. Its format tells how they are shown: floats as linear light, fixed point as codes.
 PageLayer layer_of_image(const std::string& id, const std::string& name, const std::string& about, const Image& image);
+PageLayer layer_of_image(const std::string&, const std::string&, const std::string&, const Image&&) = delete;
 
 /// Numbers of one channel, 0 for nothing: objects.
 PageLayer layer_of_ids(const std::string& id, const std::string& name, const std::string& about, const Image& image);

@@ -90,12 +90,11 @@ std::string facts(const RenderedFrame& result, const std::vector<StatLine>& line
 }
 
 /// What is shown on paper, and where no script runs.
-std::string pictures(const RenderedFrame& result) {
+std::string pictures(const RenderedFrame& result, const Image& shown) {
   const std::vector<NamedImage>& planes = result.frame.aovs;
   const Image& counts = plane_named(planes, "light.count");
   const uint32_t most = heat_scale(counts);
   const int threads = result.execution.threads;
-  const Image shown = shown_picture(result);
   std::string html = "<div class=pictures>\n" + figure(shown, "Image", about_shown(result));
   // A statement each, so that no two pictures are in memory at once.
   html += figure(view_image(ImageView::normal, threads, planes), "Normal", "world space, (N + 1) / 2");
@@ -111,9 +110,10 @@ std::string pictures(const RenderedFrame& result) {
 /// The picture and its planes, value by value.
 std::string viewer(const RenderedFrame& result) {
   const std::vector<NamedImage>& planes = result.frame.aovs;
+  const Image shown = shown_picture(result);  // before the viewer, whose layer borrows it
   PageViewer v;
   if (is_shown_otherwise(result))
-    v.add(layer_of_image("shown", "Shown", "The picture, " + about_shown(result) + ".", shown_picture(result)));
+    v.add(layer_of_image("shown", "Shown", "The picture, " + about_shown(result) + ".", shown));
   v.add(layer_of_image("color", "Image", "The picture, " + about_codes(result.frame.color) + ".", result.frame.color));
   v.add(layer_of_counts("lights", "Lights per pixel", "How many lights reach and face the surface.",
                         plane_named(planes, "light.count")));
@@ -128,7 +128,7 @@ std::string viewer(const RenderedFrame& result) {
   v.add(layer_of_ids("object", "Object", "Objects from 1 in the order of the scene; 0 is nothing drawn.",
                      plane_named(planes, "id.object")));
   v.explain_command = result.explain_command;
-  return viewer_part(v, pictures(result), result.execution.threads);
+  return viewer_part(v, pictures(result, shown), result.execution.threads);
 }
 
 std::string table(const std::vector<StatLine>& lines) {
