@@ -111,6 +111,8 @@ class SceneJudge {
     show(scene_, camera, v_.pipeline, time_of(pictures_.reference));
     if ("sha256:" + scene_hash(scene_) != *hash)
       throw not_judged(scene_.spec + " is another scene today: its hash is not the one that the reference names");
+    if (v_.pipeline.post.samples > 1)
+      throw not_judged("a pixel is an average of samples, which has no legal set: --samples 1 draws one that has");
     if (v_.pipeline.view != ImageView::lit || v_.pipeline.post.active())
       throw not_judged("a view, and a picture behind a post chain, have no legal sets");
     if (v_.pipeline.light_program.used() && v_.pipeline.light_program.text.empty())

@@ -379,11 +379,14 @@ void set_samples(const Looks& looks, Pipeline& pipeline) {
     post.output = Format::rgba8, post.encode = target.srgb ? PostChain::Encode::srgb : PostChain::Encode::linear;
 }
 
+bool is_shown_for_looks(const PipelineOptions& options, const Scene& scene) {
+  return scene.is_model && !options.preset && !options.pipeline_file;
+}
+
 Looks bring_to_looks(const PipelineOptions& options, const Pipeline& pipeline, ChosenLooks chosen, Scene& scene,
                      const ClusteredScene* stored) {
   Looks looks = options.looks;
-  const bool is_lit = pipeline.view == ImageView::lit;
-  const bool takes_choices = scene.is_model && is_lit && !options.preset && !options.pipeline_file;
+  const bool takes_choices = is_shown_for_looks(options, scene) && pipeline.view == ImageView::lit;
   if (takes_choices && chosen == ChosenLooks::never) {  // say so, for commands that would choose
     if (!looks.lights) looks.lights = "keep";
     if (!looks.exposure) looks.exposure = "0";

@@ -24,6 +24,9 @@ void check_looks(const Looks& looks);
 /// --samples, with an output of the post chain that fits the target. Nothing without the option.
 void set_samples(const Looks& looks, Pipeline& pipeline);
 
+/// Whether the scene is a model file that is shown for its looks: no option says how it is drawn.
+bool is_shown_for_looks(const PipelineOptions& options, const Scene& scene);
+
 /// Whether the looks that were not asked for are chosen by the scene.
 enum class ChosenLooks : uint8_t { by_scene, never };
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <variant>
 
 #include "cli/activity.h"
@@ -9,6 +10,7 @@
 #include "cli/raw_video.h"
 #include "cli/shared_render.h"
 #include "core/error.h"
+#include "core/file_ending.h"
 #include "core/image_files/image_io.h"
 #include "farm/process_ranks.h"
 #include "scenes/pipeline/fit_lights.h"
@@ -55,13 +57,35 @@ void check_outputs(const RenderOptions& options, const MpiStart& start) {
   }
 }
 
+/// The options with the samples of smooth edges, where none are asked for, of a model that is shown for its looks in
+/// files of 8 or 16 bits. Planes and floats are values to be judged, and the legal sets of a sample say nothing of an
+/// average. A large picture is drawn a band at a time, as it is.
+RenderOptions with_smooth_edges(RenderOptions options, Scene& scene) {
+  constexpr const char* kSmooth = "4";
+  constexpr int64_t kMostPixels = int64_t(1) << 24;
+  const Size size = options.size.value_or(Size{Pipeline().width, Pipeline().height});
+  const bool is_for_eyes = std::all_of(options.outputs.begin(), options.outputs.end(), [](const std::string& path) {
+    return has_ending(path, ".png") || has_ending(path, ".html");
+  });
+  const bool is_lit = options.view.value_or(ImageView::lit) == ImageView::lit;
+  if (!is_shown_for_looks(options, scene) || options.looks.samples || !is_lit || !is_for_eyes ||
+      options.outputs.empty() || !options.aovs.empty() || options.cube_map || !options.execution.region.whole() ||
+      int64_t(size.width) * size.height > kMostPixels)
+    return options;
+  options.looks.samples = kSmooth;
+  scene.notes.push_back(
+      "A pixel is the average of 4 samples, so that edges are smooth (--samples 1 takes one, which "
+      "compare can judge)");
+  return options;
+}
+
 }  // namespace
 
 SceneToRender::SceneToRender(const RenderOptions& given, const Execution& execution)
     : cached(cached_scene_of_options(given.scene, given.limits, given.parts)),
       scene(cached.scene),
-      pipeline(pipeline_of(given, scene)),
-      options(given) {
+      options(with_smooth_edges(given, scene)),
+      pipeline(pipeline_of(options, scene)) {
   check_cube_map(options, pipeline);
   validate_region(pipeline, options.execution.region);
   if (options.resume && (!is_streamed(options, pipeline) || options.outputs.empty() || options.numbered()))

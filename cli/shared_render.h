@@ -23,8 +23,8 @@ struct SceneToRender {
   SceneToRender& operator=(const SceneToRender&) = delete;
   CachedScene cached;
   Scene& scene;  ///< that of `cached`
-  Pipeline pipeline;
   RenderOptions options;  ///< as they were given, but that no looks are left to choose
+  Pipeline pipeline;
 };
 
 /// Whether several processes that MPI has started share the work of a command. Rank 0 alone carries out any other.

@@ -7,7 +7,6 @@
 #include "core/error.h"
 #include "core/fp_env.h"
 #include "scenes/json/json_value.h"
-#include "scenes/lights_of_ours.h"
 #include "scenes/trig.h"
 
 namespace trueshade {
@@ -107,6 +106,8 @@ ChangedCamera::ChangedCamera(const Scene& scene, const CameraChanges& changes, d
   const bool is_matrix = scene.camera.clip_from_world.has_value();
   if (changes.orbit) {
     whole_ = orbiting(scene, changes, up_, aspect);
+    if (scene.lights_of_ours && scene.lights.size() >= kLightsOfOurs)
+      lamps_ = lamps_for(scene, up_, sine_and_cosine(changes.orbit->azimuth_deg));
     changes_.target.reset();  // it is there
   } else if (scene.camera_of_ours && (aspect != 1.0 || changes.fov_y_deg)) {
     const float fov = changes.fov_y_deg ? float(radians(*changes.fov_y_deg)) : scene.camera.fov_y_rad;
@@ -149,6 +150,9 @@ Camera ChangedCamera::camera(const Scene& scene) const {
 
 void ChangedCamera::see(Scene& scene) const {
   scene.camera = camera(scene);
+  if (lamps_)
+    for (size_t i = 0; i < lamps_->size(); ++i)
+      scene.lights[scene.lights.size() - kLightsOfOurs + i].position = (*lamps_)[i];
   if (!scene.ground_of_ours || scene.instances.empty() || !changes_.any()) return;
   const FpScope fp;
   Instance& ground = scene.instances.back();

@@ -1,9 +1,11 @@
 #pragma once
+#include <array>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "scenes/lights_of_ours.h"
 #include "scenes/scene.h"
 #include "scenes/scene_defaults.h"
 
@@ -41,6 +43,8 @@ struct CameraChanges {
 /// a glTF file, which has none, at the centre of what is drawn. A glTF camera that is moved has the vertical axis up;
 /// one that looks along it has up in the picture what an orbit has there. Near and far planes are moved out where they
 /// would cut off what is drawn.
+///
+/// Lamps of ours (scenes/lights_of_ours.h) go around with an orbit.
 class ChangedCamera {
  public:
   ChangedCamera() = default;  ///< the scene's own
@@ -52,17 +56,18 @@ class ChangedCamera {
 
   /// The camera of the scene as it stands. Error(usage) where validate_camera() refuses it.
   Camera camera(const Scene& scene) const;
-  /// Replaces the scene's camera by it; to be called after each set_time(). Where changes put the eye below a ground of
-  /// ours, the ground is moved behind the far plane, for all would lie behind it.
+  /// Replaces the scene's camera by it, and moves lamps of ours; to be called after each set_time(). Where changes put
+  /// the eye below a ground of ours, the ground is moved behind the far plane, for all would lie behind it.
   void see(Scene& scene) const;
 
  private:
   CameraChanges changes_;
   std::optional<Camera> whole_;  // instead of the scene's, before its parts are replaced
   Bounds bounds_;
-  glm::dvec3 up_{0.0, 1.0, 0.0};           // the vertical axis
-  float near_ = 0.0f, far_ = 0.0f;         // of the camera whose parts are replaced
-  bool of_file_ = false, ground_ = false;  // a glTF camera; a ground of ours lies there
+  glm::dvec3 up_{0.0, 1.0, 0.0};                                   // the vertical axis
+  float near_ = 0.0f, far_ = 0.0f;                                 // of the camera whose parts are replaced
+  bool of_file_ = false, ground_ = false;                          // a glTF camera; a ground of ours lies there
+  std::optional<std::array<glm::vec3, kLightsOfOurs - 1>> lamps_;  // where they are moved to
 };
 
 /// The changes of `count` pictures around a scene: orbits at even steps of azimuth from that of `changes` on, all from

@@ -19,6 +19,14 @@ constexpr double kFalloffThere = 0.6;                // how a lamp's attenuation
 constexpr double kPhotometricShare = 0.4;            // of the squared distance: a lamp's intensity where light spreads
 constexpr double kMostIntensity = 1e17;
 
+struct Lamp {
+  glm::dvec3 from;   // the centre of the bounds
+  glm::dvec3 color;  // on grey surfaces
+};
+constexpr Lamp kLamps[kLightsOfOurs - 1] = {{{-0.8, 1.0, 0.9}, {1.45, 1.36, 1.2}},
+                                            {{1.0, 0.35, 0.7}, {0.34, 0.42, 0.56}},
+                                            {{0.5, 0.9, -1.0}, {0.6, 0.57, 0.52}}};
+
 constexpr const char* kGround = "ground";  // of its mesh and its material
 constexpr double kGroundReflectance = 0.34;
 constexpr double kGroundRadius = 8.0;  // in radii of the bounds
@@ -94,11 +102,15 @@ double gain_of(const Scene& scene) {
 
 double photometric_intensity(double distance2) { return std::min(kPhotometricShare * distance2, kMostIntensity); }
 
+glm::vec3 place_of(const Bounds& bounds, const glm::dvec3& from) {
+  return glm::vec3(bounds.centre + unit(from) * (kLightDistance * bounds.radius));
+}
+
 void add_lamp(Scene& scene, const Bounds& bounds, const glm::dvec3& from, const glm::dvec3& color) {
   const double distance = kLightDistance * bounds.radius, distance2 = distance * distance;
   const double intensity = scene.photometric ? photometric_intensity(distance2) : 1.0;
   Light light;
-  light.position = glm::vec3(bounds.centre + unit(from) * distance);
+  light.position = place_of(bounds, from);
   light.color = glm::vec3(color * intensity);
   light.range = float(6.0 * bounds.radius);
   light.attenuation = {1.0f, 0.0f, float(kFalloffThere / distance2)};
@@ -123,15 +135,28 @@ void add_lights_of_ours(Scene& scene) {
   if (scene.lights_of_ours) return;
   const Bounds bounds = bounds_of(scene);
   const double gain = gain_of(scene);
-  add_lamp(scene, bounds, {-0.8, 1.0, 0.9}, glm::dvec3(1.45, 1.36, 1.2) * gain);
-  add_lamp(scene, bounds, {1.0, 0.35, 0.7}, glm::dvec3(0.34, 0.42, 0.56) * gain);
-  add_lamp(scene, bounds, {0.5, 0.9, -1.0}, glm::dvec3(0.6, 0.57, 0.52) * gain);
+  for (const Lamp& lamp : kLamps) add_lamp(scene, bounds, lamp.from, lamp.color * gain);
   Light ambient;
   ambient.type = LightType::ambient;
   ambient.color = glm::vec3(kSoftLight * gain);
   scene.lights.push_back(ambient);
   scene.clear = {0.02f, 0.02f, 0.03f, 1.0f};
   scene.lights_of_ours = true;
+}
+
+std::array<glm::vec3, kLightsOfOurs - 1> lamps_for(const Scene& scene, const glm::dvec3& vertical,
+                                                   const glm::dvec2& turn) {
+  const FpScope fp;
+  const Bounds bounds = bounds_without_ground(scene);
+  const glm::dvec3 right(1.0, 0.0, 0.0), front = cross(right, vertical);
+  std::array<glm::vec3, kLightsOfOurs - 1> places;
+  for (size_t i = 0; i < places.size(); ++i) {
+    const glm::dvec3 from = kLamps[i].from;
+    const double x = dot(from, right), z = dot(from, front);
+    places[i] = place_of(
+        bounds, right * (x * turn.y + z * turn.x) + vertical * dot(from, vertical) + front * (z * turn.y - x * turn.x));
+  }
+  return places;
 }
 
 void add_ground(Scene& scene) {

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+
 #include "scenes/scene.h"
 #include "scenes/scene_defaults.h"
 
@@ -16,6 +18,13 @@ inline constexpr size_t kLightsOfOurs = 4;  ///< that add_lights_of_ours() appen
 /// white ones less. In a photometric scene the lights are as bright at their distance as in others. None where the
 /// scene has them already.
 void add_lights_of_ours(Scene& scene);
+
+/// Where its lamps stand, all lights of ours but the ambient one, for an eye that has gone around `vertical`, an axis
+/// of length 1, from the front (+z, or -y where z is vertical) to the right: at `turn` = (sine, cosine) of that angle.
+/// They go with the eye, so that a model is lit from every side as from the front. At (0, 1) as add_lights_of_ours()
+/// places them.
+std::array<glm::vec3, kLightsOfOurs - 1> lamps_for(const Scene& scene, const glm::dvec3& vertical,
+                                                   const glm::dvec2& turn);
 
 /// How many times as much light one of these lamps gives in a photometric scene as in others; 1 for ambient light.
 double spread_light(const Light& lamp);

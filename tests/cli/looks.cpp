@@ -147,6 +147,35 @@ TEST_CASE("The option --samples draws what post.samples of a pipeline draws, wit
   CHECK(has(pictures.hash("scene.json", {"--samples", "4", "--pipeline", "glow.json"}), "rgba32f"));
 }
 
+TEST_CASE("A model's PNGs and pages have smooth edges, and what is to be judged has one sample a pixel") {
+  const Pictures pictures;
+  const auto hash = [&](const std::string& scene, std::vector<std::string> options, const std::string& file) {
+    options.insert(options.end(), {"-o", file});
+    return pictures.hash(scene, options);
+  };
+  for (const std::string file : {"a.png", "a.html"}) {
+    CHECK(hash("lit.gltf", {}, file) == hash("lit.gltf", {"--samples", "4"}, file));
+    CHECK(hash("lit.gltf", {"--size", "61x45"}, file) != hash("lit.gltf", {"--size", "61x45", "--samples", "1"}, file));
+    CHECK(hash("scene.json", {}, file) == hash("scene.json", {"--samples", "1"}, file));
+  }
+  CHECK(has(pictures.render("lit.gltf", {"-o", "a.png"}).err, "--samples 1 takes one"));
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"--preset", "gltf"}, {"--view", "normal"}, {"--region", "8,8,20x20"}}) {
+    std::vector<std::string> one = options;
+    one.insert(one.end(), {"--samples", "1"});
+    INFO(options[0]);
+    CHECK(hash("lit.gltf", options, "a.png") == hash("lit.gltf", one, "a.png"));
+  }
+  CHECK(hash("lit.gltf", {"--aov", "depth"}, "a.exr") == hash("lit.gltf", {"--samples", "1"}, "b.exr"));
+  CHECK(pictures.hash("lit.gltf", {}) == pictures.hash("lit.gltf", {"--samples", "1"}));
+
+  pictures.picture("lit.gltf", {}, "smooth.png");
+  pictures.write_other("other.png", "smooth.png");
+  const Outcome outcome = pictures.run({"compare", "smooth.png", "other.png"});
+  CHECK(outcome.exit_code == 1);
+  CHECK(has(outcome.out + outcome.err, "--samples 1 draws one that has"));
+}
+
 TEST_CASE("A background is the colour that a PNG shows, whatever the target, the exposure and the curve") {
   const Pictures pictures;
   const Codes blue{0x33, 0x66, 0x99, 255};

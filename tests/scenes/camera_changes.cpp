@@ -227,6 +227,43 @@ TEST_CASE("the pictures of a turntable are orbits at even steps from one distanc
   CHECK(far[0].orbit->distance == Approx(3.0 * turntable(scene, orbit(0, 0), 4, 1.0)[0].orbit->distance));
 }
 
+TEST_CASE("lamps of ours go around with an orbit, whatever was seen before, and stay for other eyes") {
+  Scene scene = heap();
+  Light own;
+  own.position = {1.0f, 2.0f, 3.0f};
+  scene.lights.push_back(own);
+  add_lights_of_ours(scene);
+  const std::vector<Light> placed = scene.lights;
+  const glm::dvec3 centre = bounds_of(scene).centre;
+  const bool z_up = GENERATE(false, true);
+  if (z_up) scene.camera_of_ours = false, scene.camera.up = {0.0f, 0.0f, 1.0f};
+  const glm::dvec3 right(1.0, 0.0, 0.0), up = z_up ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(0.0, 1.0, 0.0);
+  const Camera loaded = scene.camera;
+  for (const double azimuth : {0.0, 90.0, 180.0, 33.0, -90.0, 0.0}) {
+    scene.camera = loaded;
+    ChangedCamera(scene, orbit(azimuth, 20.0), 1.0).see(scene);
+    const double angle = azimuth / 180.0 * kPi;
+    const glm::dvec3 side = right * std::cos(angle) - cross(right, up) * std::sin(angle);
+    for (size_t i = 1; i < placed.size(); ++i) {
+      const glm::dvec3 was = glm::dvec3(placed[i].position) - centre,
+                       is = glm::dvec3(scene.lights[i].position) - centre;
+      const bool is_lamp = placed[i].type != LightType::ambient;
+      INFO(azimuth << ' ' << i);
+      if (!is_lamp) CHECK(scene.lights[i].position == placed[i].position);
+      if (is_lamp) CHECK(dot(is, up) == Approx(dot(was, up)).margin(1e-5));
+      if (is_lamp) CHECK(dot(is, side) == Approx(dot(was, right)).margin(1e-5));
+      if (is_lamp) CHECK(dot(is, cross(side, up)) == Approx(dot(was, cross(right, up))).margin(1e-5));
+      if (is_lamp && azimuth == 0.0 && !z_up) CHECK(scene.lights[i].position == placed[i].position);
+    }
+    CHECK(scene.lights[0].position == own.position);
+  }
+  const glm::vec3 turned = scene.lights[1].position;
+  CameraChanges beside;
+  beside.eye = {30.0f, 0.0f, 0.0f};
+  ChangedCamera(scene, beside, 1.0).see(scene);
+  CHECK(scene.lights[1].position == turned);
+}
+
 TEST_CASE("a ground of ours is not framed, and is seen as far as it goes") {
   Scene scene = heap();
   add_ground(scene);
