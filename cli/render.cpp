@@ -57,19 +57,19 @@ void check_outputs(const RenderOptions& options, const MpiStart& start) {
   }
 }
 
-/// The options with the samples of smooth edges, where none are asked for, of a model that is shown for its looks in
-/// files of 8 or 16 bits. Planes and floats are values to be judged, and the legal sets of a sample say nothing of an
-/// average. A large picture is drawn a band at a time, as it is.
+/// The options with the samples of smooth edges, where none are asked for, of a model that is shown for its looks.
+/// Planes and EXR files are values to be judged, and the legal sets of a sample say nothing of an average. A large
+/// picture is drawn a band at a time, as it is.
 RenderOptions with_smooth_edges(RenderOptions options, Scene& scene) {
   constexpr const char* kSmooth = "4";
   constexpr int64_t kMostPixels = int64_t(1) << 24;
   const Size size = options.size.value_or(Size{Pipeline().width, Pipeline().height});
-  const bool is_for_eyes = std::all_of(options.outputs.begin(), options.outputs.end(), [](const std::string& path) {
-    return has_ending(path, ".png") || has_ending(path, ".html");
-  });
+  const bool holds_values =
+      !options.aovs.empty() || std::any_of(options.outputs.begin(), options.outputs.end(),
+                                           [](const std::string& path) { return has_ending(path, ".exr"); });
+  const bool is_whole = !options.cube_map && options.execution.region.whole();
   const bool is_lit = options.view.value_or(ImageView::lit) == ImageView::lit;
-  if (!is_shown_for_looks(options, scene) || options.looks.samples || !is_lit || !is_for_eyes ||
-      options.outputs.empty() || !options.aovs.empty() || options.cube_map || !options.execution.region.whole() ||
+  if (!is_shown_for_looks(options, scene) || options.looks.samples || holds_values || !is_whole || !is_lit ||
       int64_t(size.width) * size.height > kMostPixels)
     return options;
   options.looks.samples = kSmooth;
