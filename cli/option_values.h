@@ -61,6 +61,8 @@ double fov_from_text(const std::string& text);        ///< degrees
 /// The same; nothing of `eye`.
 std::optional<glm::vec3> cube_eye_from_text(const std::string& text);
 
+bool is_picture_name(const std::string& file);  ///< what info and compare take for a picture, by its ending
+bool is_one_page(const std::string& output);    ///< what `man -o` takes for a file, and not for a folder
 void check_scene(const std::string& scene);
 void check_preset(const std::optional<std::string>& preset);
 void check_simd(const std::string& option, const std::string& name);

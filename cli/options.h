@@ -228,7 +228,8 @@ struct VersionOptions {
 
 /// `trueshade man`
 struct ManOptions : CommonOptions {
-  std::string folder;  ///< made if it is not there
+  std::string output;                  ///< `.1` or - for one page, else a folder for all, made if it is not there
+  std::optional<std::string> command;  ///< whose page the one is; nothing: the program's own
 };
 
 /// `trueshade completion`
