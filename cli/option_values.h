@@ -53,6 +53,10 @@ inline constexpr std::string_view kSimdNames[] = {"best", "avx512", "avx2", "sse
 inline constexpr std::string_view kShellNames[] = {"bash", "zsh", "fish"};
 inline constexpr std::string_view kTileSides[] = {"8", "16", "32", "48", "64"};
 std::vector<std::string_view> preset_names();
+/// What `trueshade list NAME` lists alone, in the order in which it lists all.
+inline constexpr std::string_view kListNames[] = {"scenes",          "presets", "models", "strategies", "profiles",
+                                                  "driver-profiles", "formats", "planes", "views",      "simd",
+                                                  "faults",          "schemas"};
 
 /// `1.5,0,-2`, a place in the world within 1e9 of its origin. `or_else`: what the option takes besides, for the error.
 glm::vec3 world_place_from_text(const std::string& option, const std::string& text, const std::string& or_else = "");

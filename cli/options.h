@@ -124,9 +124,9 @@ struct ExportOptions : SceneOptions {
 
 /// `trueshade list`
 struct ListOptions : CommonOptions {
-  std::string model;  ///< of this light model or program alone, as --light-shader has it; empty: all names
+  std::string name;  ///< one of kListNames, or a preset, or a light program as --light-shader has it; empty: all lists
   bool json = false;
-  bool text = false;  ///< of a model, its text alone
+  bool text = false;  ///< of a light program, its text alone
 };
 
 /// `trueshade glsl`: a pipeline's shaders and state, and with a scene the frame's data too.

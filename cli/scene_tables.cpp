@@ -1,4 +1,6 @@
 // The tables of commands that tell of scenes and write them for others: info, list, glsl, export.
+#include <algorithm>
+
 #include "cli/command_tables.h"
 #include "cli/option_values.h"
 #include "scenes/pipeline/shipped_models.h"
@@ -36,14 +38,20 @@ CommandTable info_table(InfoOptions& options, InfoTexts& texts) {
 
 CommandTable list_table(ListOptions& options) {
   CommandTable table{"list", "List scenes, presets, light models, formats, planes and SIMD targets"};
-  OptionRow& model = add_value(table, "MODEL", "MODEL", options.model,
-                               "Say what this light model reads instead: one that ships, or a light program's file");
-  for (const ShippedModel& shipped : shipped_models()) model.known_values.emplace_back(shipped.name);
+  OptionRow& name = add_value(
+      table, "NAME", "NAME", options.name,
+      "One list alone (" + joined(kListNames) + "), or what a preset, a light model or a light program's file reads");
+  name.known_values.assign(std::begin(kListNames), std::end(kListNames));
+  for (const std::string_view preset : preset_names()) name.known_values.emplace_back(preset);
+  for (const ShippedModel& shipped : shipped_models())
+    if (std::find(name.known_values.begin(), name.known_values.end(), shipped.name) == name.known_values.end())
+      name.known_values.emplace_back(shipped.name);
   table.open_group = "Output";
   add_switch(table, "--json", options.json, "As one JSON document");
-  add_switch(table, "--text", options.text, "Of a MODEL or a preset, its GLSL alone");
+  add_switch(table, "--text", options.text, "Of a preset or a light model, its GLSL alone");
   add_quiet(table, options, kOnlyAnswerHelp);
-  table.examples = {{"trueshade list many-lights --text > mine.glsl", "A preset's formula, to be changed."},
+  table.examples = {{"trueshade list presets", "One list alone."},
+                    {"trueshade list many-lights --text > mine.glsl", "A preset's formula, to be changed."},
                     {"trueshade list gltf", "What a light model is, its parameters, and the fields that it reads."}};
   table.see_also = {"info"};
   table.finished = [&options]() -> Command { return options; };
