@@ -109,9 +109,10 @@ struct ShadeOptions : RenderOptions {
 Execution execution_of(const RenderOptions& options);
 
 /// `trueshade info`
-struct InfoOptions : PipelineOptions {  // which `resolved` alone reads
+struct InfoOptions : PipelineOptions {  // of which the camera is read by `resolved` alone
   std::string file;                     ///< a scene or an image
   bool resolved = false;                ///< every number of the scene, as the renderer has it
+  bool json = false;                    ///< which `resolved` is anyway
   double time = 0.0;                    ///< seconds of the scene's timeline
   std::string folder;  ///< for the files of `resolved`; made if it is not there; empty: standard output
 };

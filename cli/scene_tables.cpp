@@ -16,10 +16,11 @@ CommandTable info_table(InfoOptions& options, InfoTexts& texts) {
   CommandTable table{"info", "Say what is in a scene or an image"};
   add_value(table, "FILE", "SCENE", options.file, "Scene (as for render), or image (.png, .exr)").is_required = true;
   table.open_group = "Output";
+  add_switch(table, "--json", options.json, "As one JSON document, without what the text leaves out (docs/scenes.md)");
   add_switch(table, "--resolved", options.resolved,
              "Print every number of a scene as the renderer has it, as JSON (docs/resolved.md)");
   add_value(table, "-o,--output", "FOLDER", texts.folder,
-            "Folder for resolved.json and resolved.bin; made if it is not there");
+            "With --resolved: folder for resolved.json and resolved.bin; made if it is not there");
   add_quiet(table, options, "Say neither progress nor which files were written");
   add_size(table, texts.size);
   add_time(table, texts.time);
@@ -29,7 +30,8 @@ CommandTable info_table(InfoOptions& options, InfoTexts& texts) {
   add_target(table, texts.target);
   add_profile(table, texts.profile);
   add_limits(table, options.limits);
-  table.examples = {{"trueshade info out.exr", "Sizes, channels, and the hashes and pipeline that a file carries."},
+  table.examples = {{"trueshade info model.glb", "Bounds, lights, cameras, animations, textures and memory."},
+                    {"trueshade info out.exr", "Sizes, channels, and the hashes and pipeline that a file carries."},
                     {"trueshade info builtin:city --resolved -o numbers", "Every number of a scene, as files."}};
   table.see_also = {"render", "list"};
   table.finished = [&options, &texts]() -> Command { return finished(std::move(options), texts); };
