@@ -86,14 +86,14 @@ TEST_CASE("info says which textures, extensions and lights a model has") {
 
 TEST_CASE("info cuts long lists, and its JSON does not") {
   const Folder folder;
-  std::string cameras, nodes = R"({"mesh": 0})", extensions;
+  std::string nodes = R"({"name": "root"})", extensions;
   for (int i = 0; i < 9; ++i) {
     nodes += R"(, {"name": "c)" + std::to_string(i) + R"(", "camera": 0})";
     extensions += (i > 0 ? ", " : "") + ('"' + ("EXT_" + std::to_string(i)) + '"');
   }
   folder.write("many.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]}],
     "extensionsUsed": [)" + extensions +
-                                R"(], "nodes": [)" + nodes + R"(], "meshes": [{"primitives": [{"attributes": {}}]}],
+                                R"(], "nodes": [)" + nodes + R"(],
     "cameras": [{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1}}]})");
   const std::string text = folder.said({"info", "many.gltf"});
   INFO(text);
