@@ -46,7 +46,7 @@ _trueshade() {
   read -ra words <<<"${line%"$word"}"
   local command=${words[1]-} previous=${words[-1]-}
   if ((${#words[@]} < 2)); then
-    _trueshade_reply '' "$word" "$_trueshade_commands help --help --version"
+    _trueshade_reply '' "$word" "$_trueshade_commands help --help --help-limits --version"
   elif [[ $command == help ]]; then
     ((${#words[@]} > 2)) || _trueshade_reply '' "$word" "$_trueshade_commands"
   elif [[ $command == --version ]]; then

@@ -2,6 +2,7 @@
 // `--name=VALUE`, `-o VALUE` and `-oVALUE`, and `-qo VALUE` are the same as in other programs, and all behind `--` are
 // arguments. A -h among switches of one letter asks for help as well.
 #include <algorithm>
+#include <optional>
 #include <span>
 
 #include "cli/command_tables.h"
@@ -24,12 +25,13 @@ class CommandReader {
  public:
   CommandReader(const CommandTable& table, std::span<const std::string> words) : table_(table), words_(words) {}
 
-  /// Whether help is asked for. Error(usage) for a word that no row takes.
-  bool read() {
+  /// The help that is asked for; nothing where none is. Error(usage) for a word that no row takes.
+  std::optional<std::string> read() {
     bool only_arguments = false;
     for (next_ = 0; next_ < words_.size();) {
       const std::string& word = words_[next_++];
-      if (!only_arguments && word == "--help") return true;
+      if (!only_arguments && word == "--help") return help_of_command(table_);
+      if (!only_arguments && word == "--help-limits" && table_.has_limits()) return help_of_limits(table_);
       if (only_arguments || word.size() < 2 || word[0] != '-')
         arguments_.push_back(word);
       else if (word == "--")
@@ -38,9 +40,9 @@ class CommandReader {
         read_long(word);
       else
         read_short(word);
-      if (asks_help_) return true;
+      if (asks_help_) return help_of_command(table_);
     }
-    return false;
+    return std::nullopt;
   }
 
   /// Gives every row its values. Error(usage) for one argument too many, and for what is missing.
@@ -153,7 +155,7 @@ const CommandTable& named_command(const CommandTables& tables, const std::string
   if (!name.starts_with('-'))
     throw usage("command line", "there is no command '" + name + "'",
                 did_you_mean(name, tables.names()) + "one of: " + joined(tables.names()));
-  constexpr std::string_view kOptions[] = {"-h", "--help", "--version"};
+  constexpr std::string_view kOptions[] = {"-h", "--help", "--help-limits", "--version"};
   throw usage(name.substr(0, name.find('=')), "there is no such option",
               did_you_mean(name.substr(0, name.find('=')), kOptions) + "`trueshade --help` names all options");
 }
@@ -197,6 +199,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
   }
   if (words.empty()) throw usage("command line", "no command is named", "see trueshade --help");
   if (words[0] == "--help" || words[0] == "-h") return PrintText{help_of_program(tables)};
+  if (words[0] == "--help-limits") return PrintText{help_of_limits(tables.all().front())};
   const std::span<const std::string> rest = std::span(words).subspan(1);
   if (words[0] == "--version") return version_command(rest);
   if (words[0] == "--json" && words.size() > 1 && words[1] == "--version") {
@@ -205,7 +208,7 @@ Command command_from_arguments(int count, const char* const* arguments) {
   }
   const CommandTable& table = named_command(tables, words[0]);
   CommandReader reader(table, rest);
-  if (reader.read()) return PrintText{help_of_command(table)};
+  if (const std::optional<std::string> help = reader.read()) return PrintText{*help};
   reader.give();
   Command command = table.finished();
   set_command_line(command, words);

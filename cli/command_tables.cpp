@@ -16,8 +16,11 @@ CommandTables::CommandTables() {
   tables_.push_back(bench_table(bench_, bench_texts_));
   tables_.push_back(compare_table(compare_, compare_texts_));
   tables_.push_back(batch_table(batch_, batch_texts_));
-  tables_.push_back(man_table(man_));
-  tables_.push_back(completion_table(completion_));
+  CommandTable completion = completion_table(completion_);
+  std::vector<std::string> commands = names();
+  commands.insert(commands.end(), {"man", completion.name});
+  tables_.push_back(man_table(man_, commands));
+  tables_.push_back(std::move(completion));
 }
 
 std::vector<std::string> CommandTables::names() const {

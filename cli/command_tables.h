@@ -18,7 +18,7 @@ CommandTable view_table(ViewOptions& options, ViewTexts& texts);
 CommandTable bench_table(BenchOptions& options, BenchTexts& texts);
 CommandTable compare_table(CompareOptions& options, CompareTexts& texts);
 CommandTable batch_table(BatchOptions& options, BatchTexts& texts);
-CommandTable man_table(ManOptions& options);
+CommandTable man_table(ManOptions& options, const std::vector<std::string>& commands);  ///< names of all
 CommandTable completion_table(CompletionOptions& options);
 
 /// Every command's table, in the order of help, and what their rows fill.

@@ -55,7 +55,7 @@ bool is_page(const std::string& path) { return has_ending(path, ".html"); }
 
 void check_picture_outputs(const CompareOptions& options) {
   for (const std::string& path : options.outputs) {
-    if (!has_ending(path, ".png") && !has_ending(path, ".exr") && !is_page(path))
+    if (!is_picture_name(path) && !is_page(path))
       throw usage("-o", "no format has the ending of '" + path + "'", "end the name in .png, .exr or .html");
     check_file_output(path);
   }
@@ -129,7 +129,7 @@ int compare_two_folders(CompareOptions options) {
   for (const std::string& gallery : galleries) check_file_output(gallery);
   for (const std::string& folder : options.outputs) {
     std::error_code unknown;
-    if (has_ending(folder, ".png") || has_ending(folder, ".exr"))
+    if (is_picture_name(folder))
       throw usage("-o", "'" + folder + "' is named like a file, and of folders maps are written into a folder",
                   "name a folder, or a page that ends in .html");
     if (fs::exists(folder, unknown) && !is_folder(folder))

@@ -57,6 +57,9 @@ std::string fish_completion(const CommandTables& tables) {
     text +=
         "complete -c trueshade -n __fish_use_subcommand -a " + table.name + " -d " + fish_quoted(table.about) + '\n';
     for (const OptionRow& row : table.rows) text += fish_row(table, row);
+    if (table.has_limits())
+      text += "complete -c trueshade -n '__fish_seen_subcommand_from " + table.name +
+              "' -l help-limits -d 'Print the limits'\n";
   }
   return text;
 }

@@ -38,6 +38,14 @@ std::string help_row(const std::string& heading, const std::string& about) {
   return line + wrapped(about, kTextColumn, kTextColumn) + '\n';
 }
 
+std::string help_of_group(const CommandTable& table, const std::string& group) {
+  std::string text = group + ":\n";
+  for (const OptionRow& row : table.rows)
+    if (!row.is_argument() && row.group == group)
+      text += help_row(row_heading(row), row.help + (row.is_required ? " (required)" : ""));
+  return text;
+}
+
 std::string exit_code_rows() {
   std::string text = "Exit codes:\n";
   for (const auto& [code, about] : exit_codes()) text += help_row(std::to_string(code), std::string(about));
@@ -48,6 +56,9 @@ std::string exit_code_rows() {
 
 const char* const kAboutProgram =
     "Trueshade draws scenes of many lights on the CPU, to the same bits on every machine.";
+
+const char* const kHelpLimitsAbout =
+    "Print the limits on memory, time, pixels and files (--max-memory, --timeout, ...)";
 
 const std::vector<std::pair<int, std::string_view>>& exit_codes() {
   static const std::vector<std::pair<int, std::string_view>> kCodes = {{0, "ok"},
@@ -88,9 +99,12 @@ std::string help_of_program(const CommandTables& tables) {
   for (const CommandTable& table : tables.all()) text += help_row(table.name, table.about);
   text += "\nOptions:\n" +
           help_row("-h,--help", "Print this; `trueshade help COMMAND` names the options of a command") +
+          help_row("--help-limits", std::string(kHelpLimitsAbout) + "; most commands take them") +
           help_row("--version", "Print the version, SIMD targets and libraries; with --json as JSON") + '\n';
   return text + exit_code_rows();
 }
+
+std::string help_of_limits(const CommandTable& table) { return help_of_group(table, kLimitsGroup); }
 
 std::string help_of_command(const CommandTable& table) {
   std::string text = wrapped(table.about, 0, 0) + "\nUsage: " + usage_line(table) + '\n';
@@ -98,13 +112,10 @@ std::string help_of_command(const CommandTable& table) {
   for (const OptionRow& row : table.rows)
     if (row.is_argument()) arguments += help_row(row.names, row.help);
   if (!arguments.empty()) text += "\nArguments:\n" + arguments;
-  for (const std::string& group : table.groups()) {
-    text += '\n' + group + ":\n";
-    for (const OptionRow& row : table.rows)
-      if (!row.is_argument() && row.group == group)
-        text += help_row(row_heading(row), row.help + (row.is_required ? " (required)" : ""));
-  }
+  for (const std::string& group : table.groups())
+    if (group != kLimitsGroup) text += '\n' + help_of_group(table, group);
   text += "\nHelp:\n" + help_row("-h,--help", "Print this");
+  if (table.has_limits()) text += help_row("--help-limits", kHelpLimitsAbout);
   if (!table.details.empty()) text += '\n' + wrapped(table.details, 0, 0) + '\n';
   return text;
 }

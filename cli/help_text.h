@@ -10,6 +10,7 @@ namespace trueshade {
 
 std::string help_of_program(const CommandTables& tables);  ///< `trueshade --help`
 std::string help_of_command(const CommandTable& table);    ///< `trueshade COMMAND --help`
+std::string help_of_limits(const CommandTable& table);     ///< `trueshade COMMAND --help-limits`
 
 // What help and man pages say alike.
 
@@ -22,5 +23,6 @@ const std::vector<std::pair<int, std::string_view>>& exit_codes();
 /// Variables of the environment that the command reads, and what they change.
 const std::vector<std::pair<std::string_view, std::string_view>>& environment();
 extern const char* const kAboutProgram;
+extern const char* const kHelpLimitsAbout;  ///< what --help-limits prints
 
 }  // namespace trueshade

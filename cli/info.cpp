@@ -1,15 +1,14 @@
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "cli/commands.h"
 #include "cli/json_text.h"
+#include "cli/option_values.h"
 #include "cli/preparation.h"
 #include "cli/resolved_scene.h"
+#include "cli/scene_facts.h"
 #include "cli/terminal.h"
 #include "core/error.h"
 #include "core/file_ending.h"
@@ -17,83 +16,57 @@
 #include "core/image_files/picture_file.h"
 #include "core/memory_cap.h"
 #include "core/pixel_cap.h"
-#include "core/printable_text.h"
 #include "scenes/scene.h"
-#include "scenes/trig.h"
 
 namespace trueshade {
 namespace {
 
-std::string info_row(const std::string& name, const std::string& value) {
-  const std::string shown = printable(name, Lines::one);  // names and values of metadata are whatever a file holds
-  return shown + std::string(shown.size() < 22 ? 22 - shown.size() : 1, ' ') + printable(value, Lines::one) + '\n';
-}
+// --- An image --------------------------------------------------------------------------------------------------------
 
-std::string about_image(const std::string& path, uint64_t most_expansion) {
-  const ImageFileInfo image = read_image_info(path);
-  require_pixels(image.width, image.height, path);
+std::string about_image(const ImageFileInfo& image, const std::string& path) {
   std::string text =
       info_row("image", path) + info_row("size", std::to_string(image.width) + 'x' + std::to_string(image.height));
   for (const std::string& channel : image.channels) text += info_row("channel", channel);
   for (const auto& [key, value] : image.metadata) text += info_row(key, value);
-  if (!has_ending(path, ".png")) return text;
-  check_png(path, most_expansion);
-  return text + info_row("pixels", "read whole, all checksums right");
+  return text + (has_ending(path, ".png") ? info_row("pixels", "read whole, all checksums right") : "");
 }
 
-std::string angle_text(double radians) { return json_number(std::round(radians * (180.0 / kPi) * 100.0) / 100.0); }
-
-/// The cameras that --camera takes, and the animations that --animation takes, a line each.
-std::string about_parts(const Scene& scene) {
-  std::string text;
-  const auto add = [&text](const char* kind, size_t number, const std::string& name, const std::string& about) {
-    text +=
-        info_row(kind + std::string(" ") + std::to_string(number), name.empty() ? about : name + " (" + about + ')');
-  };
-  for (size_t i = 0; i < scene.cameras.size(); ++i) {
-    const SceneCamera& camera = scene.cameras[i];
-    add("camera", i, camera.name.empty() ? camera.node : camera.name,
-        camera.fov_y_rad > 0.0 ? "perspective, " + angle_text(camera.fov_y_rad) + " degrees" : "orthographic");
+std::string image_json(const ImageFileInfo& image, const std::string& path) {
+  JsonArray channels;
+  for (const std::string& channel : image.channels) {
+    const size_t space = channel.rfind(' ');
+    channels.add_raw(JsonObject().put("name", channel.substr(0, space)).put("type", channel.substr(space + 1)).text());
   }
-  const Camera& own = scene.camera;
-  if (scene.cameras.empty())
-    add("camera", 0, "",
-        scene.camera_of_ours  ? "made to see all, because the file has none"
-        : own.clip_from_world ? "a matrix"
-                              : "perspective, " + angle_text(double(own.fov_x_rad.value_or(own.fov_y_rad))) +
-                                    (own.fov_x_rad ? " degrees across" : " degrees"));
-  for (size_t i = 0; i < scene.animations.size(); ++i)
-    add("animation", i, scene.animations[i].name, json_number(scene.animations[i].seconds) + " seconds");
-  return text;
+  JsonObject metadata;
+  for (const auto& [key, value] : image.metadata) metadata.put(key, value);
+  return JsonObject()
+             .put("image", path)
+             .put("width", image.width)
+             .put("height", image.height)
+             .put_raw("channels", channels.text())
+             .put_raw("metadata", metadata.text())
+             .put("read_whole", has_ending(path, ".png"))
+             .text() +
+         '\n';
 }
 
-std::string about_scene(const std::string& spec, const Limits& limits) {
-  const Scene scene = scene_of_options(spec, limits);
-  constexpr std::pair<LightType, const char*> kTypes[] = {{LightType::ambient, "ambient"},
-                                                          {LightType::directional, "directional"},
-                                                          {LightType::point, "point"},
-                                                          {LightType::spot, "spot"}};
-  std::string kinds;
-  for (const auto& [type, name] : kTypes) {
-    const auto lights = std::count_if(scene.lights.begin(), scene.lights.end(),
-                                      [type = type](const Light& light) { return light.type == type; });
-    if (lights != 0) kinds += (kinds.empty() ? "" : ", ") + std::to_string(lights) + ' ' + name;
-  }
-  size_t vertices = 0, stored = 0;
-  for (const Mesh& mesh : scene.meshes) {
-    vertices += mesh.vertex_count();
-    stored += mesh.triangle_count();
-  }
-  return info_row("scene", scene.spec) + info_row("hash", "sha256:" + scene_hash(scene)) +
-         info_row("meshes", std::to_string(scene.meshes.size()) + " (" + std::to_string(stored) + " triangles, " +
-                                std::to_string(vertices) + " vertices stored)") +
-         info_row("materials", std::to_string(scene.materials.size())) +
-         info_row("instances", std::to_string(scene.instances.size())) +
-         info_row("triangles drawn", std::to_string(scene.triangle_count())) +
-         info_row("lights", std::to_string(scene.lights.size()) + (kinds.empty() ? "" : " (" + kinds + ')')) +
-         about_parts(scene) +
-         (scene.timeline.empty() ? "" : info_row("moves", json_number(scene.timeline.fps) + " frames a second")) +
-         (scene.pipeline_text.empty() ? "" : info_row("pipeline", scene.pipeline_text));
+/// The pixels of a PNG are read, too, so that a damaged one is not called whole.
+void print_image(const InfoOptions& options) {
+  const ImageFileInfo image = read_image_info(options.file);
+  require_pixels(image.width, image.height, options.file);
+  if (has_ending(options.file, ".png")) check_png(options.file, options.limits.expansion);
+  print(options.json ? image_json(image, options.file) : about_image(image, options.file));
+}
+
+// --- A scene ---------------------------------------------------------------------------------------------------------
+
+void print_scene(const InfoOptions& options) {
+  check_pipeline(options);
+  Scene scene = scene_of_options(options);
+  const Pipeline pipeline = layered_pipeline(options, scene);
+  validate(pipeline);
+  const SceneFacts facts = facts_of(scene, pipeline, options.time);
+  print(options.json ? facts_json(facts, scene) : facts_text(facts, scene));
 }
 
 // --- Every number, as the renderer has it ---------------------------------------------------------------------------
@@ -157,8 +130,8 @@ void resolve(const InfoOptions& options) {
 
 void print_info(const InfoOptions& options) {
   if (options.resolved) return resolve(options);
-  const bool image = has_ending(options.file, ".png") || has_ending(options.file, ".exr");
-  print(image ? about_image(options.file, options.limits.expansion) : about_scene(options.file, options.limits));
+  if (is_picture_name(options.file)) return print_image(options);
+  print_scene(options);
 }
 
 }  // namespace trueshade

@@ -1,12 +1,15 @@
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "cli/commands.h"
 #include "cli/json_text.h"
+#include "cli/option_values.h"
 #include "cli/preparation.h"
 #include "core/numeric_profile.h"
+#include "core/standard_input.h"
 #include "judge/bounds/profile_names.h"
 #include "judge/diagnosis/finding.h"
 #include "programs/front/light_outline.h"
@@ -45,7 +48,7 @@ std::vector<Section> sections() {
   for (const auto& [profile, whose] : kWhose) profiles.entries.emplace_back(profile_name(profile), whose);
   Section drivers{"driver_profiles", "Profiles that validate holds a driver to (--profile)", {}};
   for (const std::string_view name : oracle::kDriverProfileNames) drivers.entries.emplace_back(name, "");
-  Section models{"light_models", "Light models (--light-shader; `trueshade list MODEL` says what one reads)", {}};
+  Section models{"light_models", "Light models (--light-shader; `trueshade list NAME` says what one reads)", {}};
   for (const ShippedModel& model : shipped_models()) models.entries.emplace_back(model.name, model.about);
   Section formats{"formats", "Formats", {}}, planes{"aovs", "Planes (--aov)", {}};
   Section views{"views", "Views (--view)", {}};
@@ -178,15 +181,34 @@ std::string text_of(const ProgramFacts& facts) {
   return text_of(std::vector{what, parameters, reads, defines}) + (is_spirv(text) ? "" : "Text\n" + text);
 }
 
+/// All lists, or the one that is named, as it is called here or in the JSON. Nothing where a light program is named.
+/// Error(usage) for a name that is neither.
+std::optional<std::vector<Section>> lists_of(const std::string& name) {
+  std::vector<Section> all = sections();
+  if (name.empty()) return all;
+  for (size_t i = 0; i < all.size(); ++i)
+    if (name == kListNames[i] || name == all[i].key) return std::vector{std::move(all[i])};
+  std::vector<std::string_view> known(std::begin(kListNames), std::end(kListNames));
+  for (const std::string_view preset : preset_names()) known.push_back(preset);
+  for (const ShippedModel& model : shipped_models()) known.push_back(model.name);
+  if (name != kStandardInputName && names_shipped_model(name) &&
+      std::find(known.begin(), known.end(), name) == known.end())
+    throw usage("NAME", "there is no list, preset or light model '" + name + "'",
+                did_you_mean(name, known) + "one of: " + joined(kListNames) +
+                    ", or a preset, a light model, or a light program's file with its ending");
+  return std::nullopt;
+}
+
 }  // namespace
 
 void print_list(const ListOptions& options) {
-  if (!options.model.empty()) {
-    const ProgramFacts facts = facts_of(options.model);
-    if (options.text) return print(facts.program.text);
-    return print(options.json ? json_of(facts) : text_of(facts));
-  }
-  print(options.json ? json_of(sections()) : text_of(sections()));
+  const std::optional<std::vector<Section>> lists = lists_of(options.name);
+  if (lists && options.text)
+    throw usage("--text", "lists are no GLSL", "name a preset or a light model, or leave it out");
+  if (lists) return print(options.json ? json_of(*lists) : text_of(*lists));
+  const ProgramFacts facts = facts_of(options.name);
+  if (options.text) return print(facts.program.text);
+  print(options.json ? json_of(facts) : text_of(facts));
 }
 
 }  // namespace trueshade

@@ -137,6 +137,7 @@ std::string man_page_of_command(const CommandTable& table) {
   text += section("OPTIONS");
   for (const std::string& group : table.groups()) text += ".SS " + roff(group) + '\n' + rows_of(table, group);
   text += ".SS Help\n" + tagged(bold("-h") + ", " + bold("--help"), "Print the options.");
+  if (table.has_limits()) text += tagged(bold("--help-limits"), sentence(kHelpLimitsAbout));
   if (!table.details.empty()) text += section("NOTES") + roff(table.details) + '\n';
   text += exit_status() + environment_section();
   if (!table.examples.empty()) text += section("EXAMPLES") + examples_of(table);
@@ -161,6 +162,7 @@ std::string man_page_of_program(const CommandTables& tables) {
     text += tagged(reference("trueshade-" + table.name), sentence(table.about));
   text +=
       section("OPTIONS") + tagged(bold("-h") + ", " + bold("--help"), "Print the commands.") +
+      tagged(bold("--help-limits"), sentence(kHelpLimitsAbout)) +
       tagged(bold("--version"), roff("Print the version, the SIMD targets and the libraries; with --json as JSON."));
   text += exit_status() + environment_section() + section("EXAMPLES") + examples_of(*tables.named("render"));
   text += section("SEE ALSO");

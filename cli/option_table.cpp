@@ -27,8 +27,13 @@ std::vector<std::string> CommandTable::groups() const {
   return headings;
 }
 
+bool CommandTable::has_limits() const {
+  return std::any_of(rows.begin(), rows.end(), [](const OptionRow& row) { return row.group == kLimitsGroup; });
+}
+
 std::vector<std::string> CommandTable::option_spellings() const {
   std::vector<std::string> all{"-h", "--help"};
+  if (has_limits()) all.emplace_back("--help-limits");
   for (const OptionRow& row : rows)
     if (!row.is_argument())
       for (std::string& name : row.spellings()) all.push_back(std::move(name));
@@ -52,9 +57,9 @@ void add_limits(CommandTable& table, Limits& limits) {
   add_value(table, "--cache", "FOLDER", limits.cache,
             "Keep the scene in a file of this folder, from where it comes in parts as they are needed the next time "
             "(docs/cache.md)")
-      .group = "Limits";
+      .group = "Reading";
   for (const LimitOption& limit : limit_options()) {
-    OptionRow row{.names = limit.name, .value_name = value_name(limit), .help = help_of(limit), .group = "Limits"};
+    OptionRow row{.names = limit.name, .value_name = value_name(limit), .help = help_of(limit), .group = kLimitsGroup};
     row.take = [&limits, &limit](const std::vector<std::string>& given) {
       limits.*limit.limit = limit_from_text(limit, given.back());
     };

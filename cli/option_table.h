@@ -42,7 +42,8 @@ struct CommandTable {
   std::string open_group = "Options";   ///< the heading of rows that are added next
 
   OptionRow& add(OptionRow row);
-  std::vector<std::string> groups() const;            ///< the headings of options, in order
+  std::vector<std::string> groups() const;  ///< the headings of options, in order
+  bool has_limits() const;
   std::vector<std::string> option_spellings() const;  ///< of all options, with their dashes
 };
 
@@ -70,7 +71,9 @@ OptionRow& add_choice(CommandTable& table, const char* names, const char* value_
   return row;
 }
 
-/// The group `Limits`.
+/// Its rows are in --help-limits and in man pages, and not in --help, where they would be a third of all rows.
+inline constexpr const char* kLimitsGroup = "Limits";
+/// The group of limits, and what else all that read scenes have.
 void add_limits(CommandTable& table, Limits& limits);
 /// What every command has.
 void add_quiet(CommandTable& table, CommonOptions& options, std::string help);

@@ -164,16 +164,22 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
 }
 
 InfoOptions finished(InfoOptions options, const InfoTexts& texts) {
-  const std::string camera = texts.camera.given();
-  const std::pair<const char*, bool> given[] = {
+  CameraTexts seen = texts.camera;
+  seen.animation.reset();
+  const std::string camera = seen.given();
+  const std::pair<const char*, bool> of_numbers[] = {{"-o", texts.folder.has_value()},
+                                                     {camera.c_str(), !camera.empty()}};
+  for (const auto& [name, is_given] : of_numbers)
+    if (is_given && !options.resolved)
+      throw usage(name, "only a scene's numbers as the renderer has them depend on it", "add --resolved");
+  const std::pair<const char*, bool> of_scenes[] = {
       {"--preset", options.preset.has_value()},   {"--pipeline", options.pipeline_file.has_value()},
       {"--size", texts.size.has_value()},         {"--target", texts.target.has_value()},
       {"--strategy", texts.strategy.has_value()}, {"--profile", texts.profile.has_value()},
-      {"--time", texts.time.has_value()},         {"-o", texts.folder.has_value()},
-      {camera.c_str(), !camera.empty()}};
-  for (const auto& [name, is_given] : given)
-    if (is_given && !options.resolved)
-      throw usage(name, "only a scene's numbers as the renderer has them depend on it", "add --resolved");
+      {"--time", texts.time.has_value()},         {"--animation", texts.camera.animation.has_value()}};
+  for (const auto& [name, is_given] : of_scenes)
+    if (is_given && is_picture_name(options.file))
+      throw usage(name, "nothing in a picture's file depends on it", "leave it out, or name a scene");
   if (texts.folder && texts.folder->empty()) throw usage("-o", "'' is no name of a folder", "name one");
   check_preset(options.preset);
   check_scene(options.file);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "core/file_ending.h"
 #include "scenes/pipeline/presets.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
@@ -286,6 +287,10 @@ std::vector<std::string_view> preset_names() {
   for (const Preset& preset : presets()) names.push_back(preset.name);
   return names;
 }
+
+bool is_picture_name(const std::string& file) { return has_ending(file, ".png") || has_ending(file, ".exr"); }
+
+bool is_one_page(const std::string& output) { return output == "-" || has_ending(output, ".1"); }
 
 void check_scene(const std::string& scene) {
   if (scene.empty()) throw usage("SCENE", "its name is empty", "name a scene file or builtin:NAME");

@@ -53,6 +53,10 @@ inline constexpr std::string_view kSimdNames[] = {"best", "avx512", "avx2", "sse
 inline constexpr std::string_view kShellNames[] = {"bash", "zsh", "fish"};
 inline constexpr std::string_view kTileSides[] = {"8", "16", "32", "48", "64"};
 std::vector<std::string_view> preset_names();
+/// What `trueshade list NAME` lists alone, in the order in which it lists all.
+inline constexpr std::string_view kListNames[] = {"scenes",          "presets", "models", "strategies", "profiles",
+                                                  "driver-profiles", "formats", "planes", "views",      "simd",
+                                                  "faults",          "schemas"};
 
 /// `1.5,0,-2`, a place in the world within 1e9 of its origin. `or_else`: what the option takes besides, for the error.
 glm::vec3 world_place_from_text(const std::string& option, const std::string& text, const std::string& or_else = "");
@@ -61,6 +65,8 @@ double fov_from_text(const std::string& text);        ///< degrees
 /// The same; nothing of `eye`.
 std::optional<glm::vec3> cube_eye_from_text(const std::string& text);
 
+bool is_picture_name(const std::string& file);  ///< what info and compare take for a picture, by its ending
+bool is_one_page(const std::string& output);    ///< what `man -o` takes for a file, and not for a folder
 void check_scene(const std::string& scene);
 void check_preset(const std::optional<std::string>& preset);
 void check_simd(const std::string& option, const std::string& name);

@@ -109,9 +109,10 @@ struct ShadeOptions : RenderOptions {
 Execution execution_of(const RenderOptions& options);
 
 /// `trueshade info`
-struct InfoOptions : PipelineOptions {  // which `resolved` alone reads
+struct InfoOptions : PipelineOptions {  // of which the camera is read by `resolved` alone
   std::string file;                     ///< a scene or an image
   bool resolved = false;                ///< every number of the scene, as the renderer has it
+  bool json = false;                    ///< which `resolved` is anyway
   double time = 0.0;                    ///< seconds of the scene's timeline
   std::string folder;  ///< for the files of `resolved`; made if it is not there; empty: standard output
 };
@@ -124,9 +125,9 @@ struct ExportOptions : SceneOptions {
 
 /// `trueshade list`
 struct ListOptions : CommonOptions {
-  std::string model;  ///< of this light model or program alone, as --light-shader has it; empty: all names
+  std::string name;  ///< one of kListNames, or a preset, or a light program as --light-shader has it; empty: all lists
   bool json = false;
-  bool text = false;  ///< of a model, its text alone
+  bool text = false;  ///< of a light program, its text alone
 };
 
 /// `trueshade glsl`: a pipeline's shaders and state, and with a scene the frame's data too.
@@ -228,7 +229,8 @@ struct VersionOptions {
 
 /// `trueshade man`
 struct ManOptions : CommonOptions {
-  std::string folder;  ///< made if it is not there
+  std::string output;                  ///< `.1` or - for one page, else a folder for all, made if it is not there
+  std::optional<std::string> command;  ///< whose page the one is; nothing: the program's own
 };
 
 /// `trueshade completion`

@@ -149,7 +149,7 @@ void set_light_program(const PipelineOptions& options, LightProgram& program) {
 
 }  // namespace
 
-Pipeline pipeline_of(const PipelineOptions& options, const Scene& scene) {
+Pipeline layered_pipeline(const PipelineOptions& options, const Scene& scene) {
   Pipeline pipeline = options.preset ? *preset_pipeline(*options.preset) : default_pipeline(scene);
   if (options.light_shader) end_at_range(pipeline.light_volumes);
   if (!scene.pipeline_text.empty())
@@ -161,6 +161,11 @@ Pipeline pipeline_of(const PipelineOptions& options, const Scene& scene) {
   if (options.profile) pipeline.profile = *options.profile;
   if (options.strategy) pipeline.strategy = *options.strategy;
   if (options.view) pipeline.view = *options.view;
+  return pipeline;
+}
+
+Pipeline pipeline_of(const PipelineOptions& options, const Scene& scene) {
+  Pipeline pipeline = layered_pipeline(options, scene);
   set_light_program(options, pipeline.light_program);
   set_samples(options.looks, pipeline);
   validate(pipeline);

@@ -49,6 +49,10 @@ LightProgram light_program_of(const std::string& name);
 /// `gain=2` or `tint=1,0.5,0.2`. Error(usage) of other texts.
 ProgramParameter parameter_of(const std::string& text);
 
+/// The pipeline of all layers but options of light programs, whose text it may lack; not validated. For who says what a
+/// frame takes and draws none.
+Pipeline layered_pipeline(const PipelineOptions& options, const Scene& scene);
+
 /// The pipeline of all layers, each over the one before: preset, scene file, pipeline file, options. Valid.
 Pipeline pipeline_of(const PipelineOptions& options, const Scene& scene);
 

@@ -1,4 +1,6 @@
 // The tables of commands that tell of scenes and write them for others: info, list, glsl, export.
+#include <algorithm>
+
 #include "cli/command_tables.h"
 #include "cli/option_values.h"
 #include "scenes/pipeline/shipped_models.h"
@@ -14,10 +16,11 @@ CommandTable info_table(InfoOptions& options, InfoTexts& texts) {
   CommandTable table{"info", "Say what is in a scene or an image"};
   add_value(table, "FILE", "SCENE", options.file, "Scene (as for render), or image (.png, .exr)").is_required = true;
   table.open_group = "Output";
+  add_switch(table, "--json", options.json, "As one JSON document, without what the text leaves out (docs/scenes.md)");
   add_switch(table, "--resolved", options.resolved,
              "Print every number of a scene as the renderer has it, as JSON (docs/resolved.md)");
   add_value(table, "-o,--output", "FOLDER", texts.folder,
-            "Folder for resolved.json and resolved.bin; made if it is not there");
+            "With --resolved: folder for resolved.json and resolved.bin; made if it is not there");
   add_quiet(table, options, "Say neither progress nor which files were written");
   add_size(table, texts.size);
   add_time(table, texts.time);
@@ -27,7 +30,8 @@ CommandTable info_table(InfoOptions& options, InfoTexts& texts) {
   add_target(table, texts.target);
   add_profile(table, texts.profile);
   add_limits(table, options.limits);
-  table.examples = {{"trueshade info out.exr", "Sizes, channels, and the hashes and pipeline that a file carries."},
+  table.examples = {{"trueshade info model.glb", "Bounds, lights, cameras, animations, textures and memory."},
+                    {"trueshade info out.exr", "Sizes, channels, and the hashes and pipeline that a file carries."},
                     {"trueshade info builtin:city --resolved -o numbers", "Every number of a scene, as files."}};
   table.see_also = {"render", "list"};
   table.finished = [&options, &texts]() -> Command { return finished(std::move(options), texts); };
@@ -36,14 +40,20 @@ CommandTable info_table(InfoOptions& options, InfoTexts& texts) {
 
 CommandTable list_table(ListOptions& options) {
   CommandTable table{"list", "List scenes, presets, light models, formats, planes and SIMD targets"};
-  OptionRow& model = add_value(table, "MODEL", "MODEL", options.model,
-                               "Say what this light model reads instead: one that ships, or a light program's file");
-  for (const ShippedModel& shipped : shipped_models()) model.known_values.emplace_back(shipped.name);
+  OptionRow& name = add_value(
+      table, "NAME", "NAME", options.name,
+      "One list alone (" + joined(kListNames) + "), or what a preset, a light model or a light program's file reads");
+  name.known_values.assign(std::begin(kListNames), std::end(kListNames));
+  for (const std::string_view preset : preset_names()) name.known_values.emplace_back(preset);
+  for (const ShippedModel& shipped : shipped_models())
+    if (std::find(name.known_values.begin(), name.known_values.end(), shipped.name) == name.known_values.end())
+      name.known_values.emplace_back(shipped.name);
   table.open_group = "Output";
   add_switch(table, "--json", options.json, "As one JSON document");
-  add_switch(table, "--text", options.text, "Of a MODEL or a preset, its GLSL alone");
+  add_switch(table, "--text", options.text, "Of a preset or a light model, its GLSL alone");
   add_quiet(table, options, kOnlyAnswerHelp);
-  table.examples = {{"trueshade list many-lights --text > mine.glsl", "A preset's formula, to be changed."},
+  table.examples = {{"trueshade list presets", "One list alone."},
+                    {"trueshade list many-lights --text > mine.glsl", "A preset's formula, to be changed."},
                     {"trueshade list gltf", "What a light model is, its parameters, and the fields that it reads."}};
   table.see_also = {"info"};
   table.finished = [&options]() -> Command { return options; };

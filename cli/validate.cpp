@@ -15,6 +15,7 @@
 #include "cli/judged_mask.h"
 #include "cli/looks.h"
 #include "cli/option_values.h"
+#include "cli/picture_output.h"
 #include "cli/preparation.h"
 #include "cli/shell_words.h"
 #include "cli/validation.h"

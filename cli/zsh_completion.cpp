@@ -63,12 +63,14 @@ std::string zsh_completion(const CommandTables& tables) {
     text += "\n    " + single_quoted(table.name + ':' + zsh_text(table.about));
   text +=
       "\n    'help:Print the options of a command')\n"
-      "  _arguments -C '(- *)'{-h,--help}'[Print the commands]' '(- *)--version[Print the version]' "
+      "  _arguments -C '(- *)'{-h,--help}'[Print the commands]' '(- *)--help-limits[Print the limits]' '(- "
+      "*)--version[Print the version]' "
       "'1: :->command' '*:: :->rest'\n"
       "  case $state in\n    command) _describe -t commands command commands ;;\n    rest)\n      case $words[1] in\n"
       "        help) _describe -t commands command commands ;;\n";
   for (const CommandTable& table : tables.all()) {
     text += "        " + table.name + ") _arguments -s -S '(- *)'{-h,--help}'[Print the options]'";
+    if (table.has_limits()) text += " '(- *)--help-limits[Print the limits]'";
     for (const OptionRow& row : table.rows) text += " \\\n         " + specifications(row);
     text += " ;;\n";
   }

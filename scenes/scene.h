@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/image.h"
@@ -56,7 +57,9 @@ struct Material {
 };
 
 inline constexpr size_t kMaterialMaps = 6;
-/// The maps of a material: colour, specular, normal, metallic-roughness, emission, occlusion.
+inline constexpr std::string_view kMapNames[kMaterialMaps] = {"color",    "specular", "normal", "metallic_roughness",
+                                                              "emission", "occlusion"};
+/// The maps of a material, in the order of their names.
 template <class M>  // Material, const or not
 auto maps_of(M& m) {
   return std::array{&m.color_map,    &m.specular_map, &m.normal_map, &m.metallic_roughness_map,
@@ -108,6 +111,7 @@ struct Scene {
   bool ground_of_ours = false;  ///< the last instance is the ground of add_ground()
   std::vector<SceneCamera> cameras{};        ///< of a glTF file; empty where its cameras are not the scene's
   std::vector<SceneAnimation> animations{};  ///< of a glTF file
+  std::vector<SceneExtension> extensions{};  ///< of a glTF file, in its order
   std::shared_ptr<const SceneDigests>
       digests{};                     ///< null unless meshes and textures lie in a cache file (scene_cache/)
   std::vector<std::string> notes{};  ///< what of its file the scene leaves out, a full sentence without full stop each

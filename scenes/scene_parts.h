@@ -21,6 +21,15 @@ struct SceneAnimation {
   bool operator==(const SceneAnimation&) const = default;
 };
 
+/// An extension that a glTF file uses.
+struct SceneExtension {
+  std::string name;       ///< its first 80 bytes
+  bool required = false;  ///< the file says that it cannot be drawn without
+  bool is_read = true;    ///< else the file is drawn as if it had none
+
+  bool operator==(const SceneExtension&) const = default;
+};
+
 /// Which of a file's cameras and animations a scene is made with: a number from 0, or a name.
 struct SceneParts {
   std::optional<std::string> camera;     ///< nothing: the first

@@ -77,6 +77,7 @@ trueshade_slow(4
   "cli:Depths in halves and identifiers read as floats are refused in one line, not judged in thousands"
   "cli:Of the profiles that were tried the one with the fewest pixels against it, over all stages, comes first"
   "cli:bench's report shows peers, tiles' costs on more cores, and how frames scale"
+  "docs: the commands that guides show in a sentence run"
   "docs: what README.md shows runs"
   "docs: what docs/exit_codes.md shows runs"
   "docs: what docs/validation.md shows runs"

@@ -17,9 +17,11 @@ Scene scene_from_gltf(std::span<const uint8_t> file, const std::string& path, co
   const gltf::Document document = gltf::read_document(container, path, limits);
   const SceneFolder folder(path);
   gltf::Buffers buffers(document, container, folder, limits);
-  if (auto extras = gltf::read_extras(document, limits))
-    return gltf::scene_of_extras(std::move(*extras), buffers, folder, limits, decode);
-  return gltf::SceneMaker(buffers, folder, limits, decode, parts).make();
+  auto extras = gltf::read_extras(document, limits);
+  Scene scene = extras ? gltf::scene_of_extras(std::move(*extras), buffers, folder, limits, decode)
+                       : gltf::SceneMaker(buffers, folder, limits, decode, parts).make();
+  scene.extensions = document.extensions;
+  return scene;
 }
 
 }  // namespace trueshade

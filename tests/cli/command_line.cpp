@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "cli/limit_options.h"
+#include "cli/option_values.h"
 #include "tests/cli/refused.h"
 #include "tests/scratch_folder.h"
 
@@ -15,8 +17,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kCommands[] = {"render",  "info",  "list",    "glsl", "export", "validate",  "shade",
-                                     "explain", "bench", "compare", "view", "batch",  "man",  "completion"};
+constexpr const char* kCommands[] = {"render",  "info",  "list",    "glsl", "export", "validate", "shade",
+                                     "explain", "bench", "compare", "view", "batch",  "man",      "completion"};
 
 std::string file_bytes(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -54,12 +56,80 @@ TEST_CASE("Help of every command has -q, stands in groups and in lines of 100 co
   const std::string help = answer({"render", "--help"});
   size_t at = 0;
   for (const char* group : {"\nArguments:\n", "\nOutput:\n", "\nCamera and time:\n", "\nPipeline:\n", "\nExecution:\n",
-                            "\nLimits:\n", "\nHelp:\n"}) {
+                            "\nReading:\n", "\nHelp:\n"}) {
     INFO(group);
     const size_t found = help.find(group, at);
     REQUIRE(found != std::string::npos);
     at = found;
   }
+}
+
+TEST_CASE("Limits stand in a help of their own, which --help names, and in man pages") {
+  const ScratchFolder folder;
+  const std::string limits = answer({"--help-limits"});
+  CHECK(limits.starts_with("Limits:\n"));
+  answer({"man", "man1"}, folder.path(""));
+  for (const std::string command : {"render", "info", "validate", "bench", "compare", "export"}) {
+    const std::string help = answer({command, "--help"}),
+                      page = file_bytes(folder.path("man1/trueshade-" + command + ".1"));
+    INFO(command);
+    CHECK(help.find("\n  --help-limits ") != std::string::npos);
+    CHECK(answer({command, "--help-limits"}) == limits);
+    for (const LimitOption& limit : limit_options()) {
+      const std::string row = "\n  " + std::string(limit.name) + ' ';
+      INFO(limit.name);
+      CHECK(limits.find(row) != std::string::npos);
+      CHECK(help.find(row) == std::string::npos);
+      CHECK(page.find(std::regex_replace(limit.name, std::regex("-"), "\\-")) != std::string::npos);
+    }
+  }
+  check_refused(run_command({"list", "--help-limits"}), 2, "--help-limits: there is no such option");
+}
+
+TEST_CASE("One man page is written where -o says") {
+  const ScratchFolder folder;
+  const std::string at = folder.path("");
+  answer({"man", "man1", "-q"}, at);
+  CHECK(answer({"man", "-o", "all"}, at).starts_with("all/trueshade.1\nall/trueshade-render.1\n"));
+  CHECK(answer({"man", "-o", "one/mine.1"}, at).starts_with("wrote one/mine.1 (manual page, "));
+  CHECK(answer({"man", "--command", "shade", "-q", "-o", "shade.1"}, at).empty());
+  const std::string page = file_bytes(folder.path("man1/trueshade.1"));
+  CHECK(file_bytes(folder.path("all/trueshade.1")) == page);
+  CHECK(file_bytes(folder.path("one/mine.1")) == page);
+  CHECK(answer({"man", "-o", "-"}, at) == page);
+  CHECK(file_bytes(folder.path("shade.1")) == file_bytes(folder.path("man1/trueshade-shade.1")));
+  const auto refused = [&at](const std::vector<std::string>& words, const std::string& about) {
+    check_refused(run_command(words, at), 2, about);
+  };
+  refused({"man"}, "FOLDER: it is required (name one, or add -o FILE)");
+  refused({"man", "man1", "-o", "a.1"}, "-o: pages go to one place");
+  refused({"man", "-o", "a.1", "--command", "shad"}, "--command: there is no command 'shad' (did you mean shade? ");
+  refused({"man", "man1", "--command", "shade"}, "--command: a folder takes the pages of all commands");
+}
+
+TEST_CASE("list lists one thing alone, and answers a wrong name with a near one") {
+  const json all = json::parse(answer({"list", "--json"}));
+  const std::string text = answer({"list"});
+  CHECK(all.size() == std::size(kListNames));
+  std::string lists;
+  for (const std::string_view name : kListNames) {
+    INFO(name);
+    const json one = json::parse(answer({"list", std::string(name), "--json"}));
+    REQUIRE(one.size() == 1);
+    CHECK(all.at(one.begin().key()) == one.begin().value());
+    CHECK(one == json::parse(answer({"list", one.begin().key(), "--json"})));
+    lists += answer({"list", std::string(name)});
+  }
+  CHECK(lists == text);
+  CHECK(answer({"list", "presets"}).find("\n  many-lights ") != std::string::npos);
+  const auto refused = [](const std::vector<std::string>& words, const std::string& about) {
+    check_refused(run_command(words), 2, about);
+  };
+  refused({"list", "preset"}, "NAME: there is no list, preset or light model 'preset' (did you mean presets? one of: ");
+  refused({"list", "many-light"}, "did you mean many-lights? ");
+  refused({"list", "glft"}, "did you mean gltf? ");
+  refused({"list", "presets", "--text"}, "--text: lists are no GLSL");
+  refused({"list", "presets", "scenes"}, "'scenes' is one argument too many");
 }
 
 TEST_CASE("Options are read as other programs read them") {

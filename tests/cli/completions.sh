@@ -41,6 +41,9 @@ expect bash 'a scene behind its colon' "city cornell circle" "$(bash_words 'true
 expect bash 'a file' "scenes" "$(bash_words 'trueshade render sce')"
 expect bash 'a file in a folder' "scenes/room.json scenes/roof.glb" "$(bash_words 'trueshade render scenes/ro')"
 expect bash 'an output' "picture.png" "$(bash_words 'trueshade render builtin:city -o pic')"
+expect bash 'a list' "presets" "$(bash_words 'trueshade list pres')"
+expect bash 'a limit' "--max-memory" "$(bash_words 'trueshade render --max-me')"
+expect bash 'limits' "--help --help-limits" "$(bash_words 'trueshade render --hel')"
 expect bash 'a shell' "bash" "$(bash_words 'trueshade completion b')"
 expect bash 'behind a switch' "--hash" "$(bash_words 'trueshade render builtin:city -q --ha')"
 expect bash 'no such command' "" "$(bash_words 'trueshade paint --p')"
@@ -87,8 +90,8 @@ commands=$("$trueshade" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]\+\) .*/\1
 for command in $commands; do
   page=man1/trueshade-$command.1
   [[ -s $page ]] || { echo "there is no page of $command"; status=1; continue; }
-  # Every option of the help is in the page, and the other way round.
-  options=$("$trueshade" "$command" --help | grep -oE '^  (-[a-z],)?--[a-z-]+' | grep -oE '\-\-[a-z-]+' | sort)
+  # Every option of the help, and of that of limits, is in the page, and the other way round.
+  options=$({ "$trueshade" "$command" --help; "$trueshade" "$command" --help-limits 2>/dev/null || true; } | grep -oE '^  (-[a-z],)?--[a-z-]+' | grep -oE '\-\-[a-z-]+' | sort)
   described=$(grep -A1 '^\.TP' "$page" | sed 's/\\-/-/g' | grep -oE '^\\fB.*' | grep -oE '\-\-[a-z-]+' | sort)
   expect man "$command" "$options" "$described"
 done

@@ -207,9 +207,7 @@ TEST_CASE("info --resolved writes both files or none") {
 TEST_CASE("info --resolved prints no scene of millions of numbers, and other options belong to --resolved") {
   const ScratchFolder folder;
   check_refused(resolve("builtin:cornell,lights=5000", folder, {"--preset", "redsdk"}), 4, "add -o FOLDER");
-  for (const Arguments& more :
-       {Arguments{"--preset", "redsdk"}, {"--size", "8x8"}, {"--time", "1"}, {"-o", "out"}, {"--target", "rgba8"},
-        {"--strategy", "deferred-loop"}, {"--profile", "ideal"}, {"--pipeline", "p.json"}}) {
+  for (const Arguments& more : {Arguments{"-o", "out"}, {"--orbit", "1,2"}, {"--fov", "40"}, {"--camera", "0"}}) {
     Arguments arguments{"info", "builtin:cornell"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     check_refused(run_command(arguments, folder.path("")), 2, more[0]);

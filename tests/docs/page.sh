@@ -17,7 +17,6 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/bin" "$work/page"
 ln -s "$command" "$work/bin/trueshade"
-[[ ! -x /usr/bin/python3 ]] || ln -s /usr/bin/python3 "$work/bin/python3"  # the system's, which has NumPy
 cp -r "$source_folder/tests/docs/files/." "$work/page"
 export PATH="$work/bin:$PATH"
 printed=$work/printed

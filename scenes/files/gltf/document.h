@@ -12,6 +12,7 @@
 #include "scenes/json/json_value.h"
 #include "scenes/light.h"
 #include "scenes/placement.h"
+#include "scenes/scene_parts.h"
 #include "scenes/texture.h"
 #include "scenes/timeline.h"
 
@@ -225,8 +226,8 @@ bool is_nearly_unit(const glm::dvec4& q);
 struct Document {
   std::string file;  ///< stands in errors
   bool is_glb = false;
-  std::vector<std::string> unread_extensions;  ///< used, and not among those that are read; their first 80 bytes
-  bool quantized = false;                      ///< KHR_mesh_quantization is among the extensions used
+  std::vector<SceneExtension> extensions;  ///< that are used
+  bool quantized = false;                  ///< KHR_mesh_quantization is among the extensions used
   std::vector<Buffer> buffers;
   std::vector<BufferView> views;
   std::vector<Accessor> accessors;

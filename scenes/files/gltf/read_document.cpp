@@ -62,13 +62,14 @@ void read_extensions(const json::Node& root, Document& document) {
   std::set<std::string_view> used, required;
   for_each(root, "extensionsUsed", [&](const json::Node& name, size_t) {
     if (!used.insert(name.string()).second) name.fail("an extension is named twice", "each once");
-    if (!is_read(name.string())) document.unread_extensions.push_back(std::string(name.string()).substr(0, 80));
+    document.extensions.push_back({name.string().substr(0, 80), false, is_read(name.string())});
   });
   for_each(root, "extensionsRequired", [&](const json::Node& name, size_t) {
     if (!required.insert(name.string()).second) name.fail("an extension is named twice", "each once");
     check_required(name);
     if (!used.contains(name.string())) name.fail("a required extension is not among extensionsUsed", "add it there");
   });
+  for (SceneExtension& extension : document.extensions) extension.required = required.contains(extension.name);
   document.quantized = used.contains("KHR_mesh_quantization");
 }
 

@@ -319,10 +319,11 @@ void SceneMaker::add_notes() {
        " read by the stride of the view, which glTF keeps for vertices");
   std::string names;
   constexpr size_t kNamed = 5;
-  const std::vector<std::string>& unread = document_.unread_extensions;
-  for (size_t i = 0; i < std::min(unread.size(), kNamed); ++i) names += (i > 0 ? ", " : "") + unread[i];
-  if (unread.size() > kNamed) names += ", ...";
-  note(unread.size(), "extension is", "extensions are",
+  size_t unread = 0;
+  for (const SceneExtension& extension : document_.extensions)
+    if (!extension.is_read && ++unread <= kNamed) names += (unread > 1 ? ", " : "") + extension.name;
+  if (unread > kNamed) names += ", ...";
+  note(unread, "extension is", "extensions are",
        (" not read, and the file is drawn as if it had none: " + names).c_str());
 }
 

@@ -83,6 +83,11 @@ TEST_CASE("required extensions that are not implemented are refused by name, oth
             .instances.empty());
   CHECK(load_gltf(extensions(R"("extensionsUsed": ["EXT_a", "KHR_lights_punctual", "EXT_b"])")).notes ==
         std::vector<std::string>{"2 extensions are not read, and the file is drawn as if it had none: EXT_a, EXT_b"});
+  CHECK(load_gltf(extensions(R"("extensionsUsed": ["EXT_a", "KHR_texture_transform", "KHR_materials_unlit"], )"
+                             R"("extensionsRequired": ["KHR_materials_unlit"])"))
+            .extensions == std::vector<SceneExtension>{{"EXT_a", false, false},
+                                                       {"KHR_texture_transform", false, true},
+                                                       {"KHR_materials_unlit", true, true}});
   CHECK(
       load_gltf(
           extensions(R"("extensionsUsed": ["KHR_mesh_quantization"], "extensionsRequired": ["KHR_mesh_quantization"])"))
