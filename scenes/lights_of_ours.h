@@ -13,8 +13,8 @@ inline constexpr size_t kLightsOfOurs = 4;  ///< that add_lights_of_ours() appen
 /// Appends lights of ours to those of a scene, as a photographer lights an object: a warm key light from the upper
 /// left, a cool fill light from the right, a light from behind, and faint ambient light, over a dark background. Dark
 /// surfaces get more light, up to 5 times as much as grey ones but none that would cut a bright surface off at 1, and
-/// white ones less. In a photometric scene the lights are as bright at their distance as in others. None where the
-/// scene has them already.
+/// white ones less. Lamps less than 1e-9 units away shine as from far away. In a photometric scene the lights are as
+/// bright at their distance as in others. None where the scene has them already.
 void add_lights_of_ours(Scene& scene);
 
 /// How many times as much light one of these lamps gives in a photometric scene as in others; 1 for ambient light.
