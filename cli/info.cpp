@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/json_text.h"
+#include "cli/notes.h"
 #include "cli/preparation.h"
 #include "cli/resolved_scene.h"
 #include "cli/terminal.h"
@@ -85,6 +86,7 @@ std::string about_scene(const std::string& spec, const Limits& limits) {
     stored += mesh.triangle_count();
   }
   return info_row("scene", scene.spec) + info_row("hash", "sha256:" + scene_hash(scene)) +
+         (scene.passed_over.empty() ? "" : info_row("drawn leniently", lenient_text(scene))) +
          info_row("meshes", std::to_string(scene.meshes.size()) + " (" + std::to_string(stored) + " triangles, " +
                                 std::to_string(vertices) + " vertices stored)") +
          info_row("materials", std::to_string(scene.materials.size())) +

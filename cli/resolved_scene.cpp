@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cli/json_text.h"
+#include "cli/notes.h"
 #include "raster/view.h"
 #include "scenes/pipeline/light_mesh.h"
 #include "shading/light/light_table.h"
@@ -159,8 +160,8 @@ std::string map_json(const TextureSlot& slot) {
 
 std::string material_json(const Material& m) {
   JsonObject json, maps;
-  constexpr const char* kMapNames[kMaterialMaps] = {"color",    "specular",           "normal",
-                                                    "metallic_roughness", "emission", "occlusion"};
+  constexpr const char* kMapNames[kMaterialMaps] = {"color",    "specular", "normal", "metallic_roughness",
+                                                    "emission", "occlusion"};
   const auto slots = maps_of(m);
   for (size_t i = 0; i < kMaterialMaps; ++i) maps.put_raw(kMapNames[i], map_json(*slots[i]));
   json.put("name", m.name).put_raw("base_color", json_of_vector(m.base_color));
@@ -243,7 +244,8 @@ ResolvedNumbers resolved_numbers(const Scene& scene, const Pipeline& pipeline) {
     numbers.of_scene += streams * mesh.vertex_count() + mesh.indices.size();
   }
   for (const Texture& texture : scene.textures)
-    for (const TextureLevel& level : texture.levels) numbers.of_scene += 4 * uint64_t(level.width) * uint64_t(level.height);
+    for (const TextureLevel& level : texture.levels)
+      numbers.of_scene += 4 * uint64_t(level.width) * uint64_t(level.height);
   if (pipeline.strategy != Strategy::deferred_volumes) return numbers;
   const LightMeshes meshes(pipeline.light_volumes);
   for (const Light& light : scene.lights)
@@ -267,6 +269,7 @@ std::vector<std::string> resolved_text(const Scene& scene, const Pipeline& pipel
   out.add("version", "1");
   out.add("scene", json_string(scene.spec));
   out.add("hash", json_string("sha256:" + scene_hash(scene)));
+  if (const std::string text = lenient_text(scene); !text.empty()) out.add("lenient", json_string(text));
   out.add("time", json_number(time));
   out.add("file", file.empty() ? "null" : json_string(file));
   out.add("pipeline", pipeline_json(pipeline));

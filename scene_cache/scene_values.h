@@ -126,10 +126,11 @@ void each_member(auto& visit, Same<SceneAnimation> auto& value) {
 /// All but the meshes, which are stored first, one by one, and the digests, which the file's maker stores.
 void each_member(auto& visit, Same<Scene> auto& value) {
   auto& [spec, meshes, materials, textures, instances, lights, camera, clear, pipeline_text, timeline, time,
-         photometric, lights_of_ours, is_model, camera_of_ours, ground_of_ours, cameras, animations, digests, notes] =
-      value;
+         photometric, lights_of_ours, is_model, camera_of_ours, ground_of_ours, cameras, animations, digests, notes,
+         passed_over] = value;
   each_of(visit, spec, materials, textures, instances, lights, camera, clear, pipeline_text, timeline, time,
-          photometric, lights_of_ours, is_model, camera_of_ours, ground_of_ours, cameras, animations, notes);
+          photometric, lights_of_ours, is_model, camera_of_ours, ground_of_ours, cameras, animations, notes,
+          passed_over);
 }
 
 void each_member(auto& visit, Same<FileState> auto& value) {
