@@ -7,6 +7,7 @@
 #include <system_error>
 #include <vector>
 
+#include "cli/notes.h"
 #include "core/error.h"
 #include "core/image_files/image_io.h"
 
@@ -43,6 +44,7 @@ void accept_picture(const std::string& test, const std::string& reference, const
 }
 
 std::string why_not_acceptable(const PictureFile& picture, bool allow_not_finite) {
+  if (is_lenient(picture.metadata)) return "it was drawn with --lenient of a file with faults, so it is no reference";
   if (allow_not_finite) return {};
   for (const ChannelFile& part : picture.parts)
     for (const Channel& channel : part.channels) {

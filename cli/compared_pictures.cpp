@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cli/judged_comparison.h"
+#include "cli/notes.h"
 #include "core/error.h"
 #include "core/memory_cap.h"
 
@@ -71,6 +72,10 @@ ComparedPictures compared_pictures(const std::string& reference, const std::stri
       std::any_of(criteria.begin(), criteria.end(), [](const auto& row) { return compare::is_flip(row.measure); }))
     require_memory(flip_memory(uint64_t(part.width) * uint64_t(part.height)), reference, "FLIP");
   pictures.comparison = compare::compared(pictures.reference, pictures.test, rules);
+  for (const PictureFile* picture : {&pictures.reference, &pictures.test})
+    if (is_lenient(picture->metadata))
+      pictures.comparison.notes.push_back(picture->path +
+                                          " is no reference: it was drawn with --lenient of a file with faults");
   const compare::Comparison& c = pictures.comparison;
   if (options.judges && c.outcome == compare::Outcome::different && c.differences.not_finite_pixels == 0)
     pictures.judged = judged_by_scene(pictures, options);

@@ -168,6 +168,8 @@ CommandTable render_table(RenderOptions& options, RenderTexts& texts) {
   add_looks(table, options.looks);
   add_render_execution(table, options, texts);
   add_sharing(table, options.sharing, texts.lost_after);
+  add_lenient(table, options.limits);
+  add_trust(table, options.limits);
   add_limits(table, options.limits);
   table.examples = {
       {"trueshade render builtin:city -o city.png --hash", "A picture, and the hash that it has on every machine."},
@@ -202,6 +204,7 @@ CommandTable shade_table(ShadeOptions& options, ShadeTexts& texts) {
              std::vector<std::string>{"forward-loop", "deferred-volumes", "deferred-loop"});
   add_profile(table, texts.profile);
   add_value(table, "--threads", "COUNT", texts.threads, kThreadsHelp).group = "Execution";
+  add_trust(table, options.limits);
   add_limits(table, options.limits);
   table.examples = {{"trueshade shade out.exr --lights scene.json -o should.png",
                      "What the lights of a scene should have made of a G-buffer."}};
@@ -234,6 +237,8 @@ CommandTable explain_table(ExplainOptions& options, ExplainTexts& texts) {
   add_strategy(table, texts.strategy);
   add_profile(table, texts.profile);
   add_looks(table, options.looks);
+  add_lenient(table, options.limits);
+  add_trust(table, options.limits);
   add_limits(table, options.limits);
   table.details = "The last line is the stored pixel, as render stores it.";
   table.examples = {{"trueshade explain scene.json --pixel 160,120", "Everything behind one pixel's value."}};
@@ -263,6 +268,8 @@ CommandTable view_table(ViewOptions& options, ViewTexts& texts) {
       "Pipeline";
   add_looks(table, options.looks);
   add_value(table, "--threads", "COUNT", texts.threads, kThreadsHelp).group = "Execution";
+  add_lenient(table, options.limits);
+  add_trust(table, options.limits);
   add_limits(table, options.limits);
   table.details =
       "With --size the picture keeps its size, otherwise it is as large as the window. F1 in the window names all "

@@ -57,6 +57,7 @@ Metadata metadata_of(const RenderedFrame& result) {
   if (const std::string text = camera_json(result.parts, result.camera); !text.empty())
     metadata.emplace_back(kCameraKey, text);
   if (!result.cube_map.empty()) metadata.emplace_back("trueshade:cubeMap", result.cube_map);
+  if (std::string text = lenient_text(result.scene); !text.empty()) metadata.emplace_back(kLenientKey, std::move(text));
   if (!result.looks.empty()) metadata.emplace_back("trueshade:looks", result.looks.substr(1));
   if (!result.execution.region.whole()) metadata.emplace_back("trueshade:region", region_text(result.execution.region));
   const bool is_read = !result.scene.timeline.empty() || result.pipeline.light_program.used();  // the time
@@ -150,6 +151,7 @@ std::string json_of(const RenderedFrame& result, std::span<const std::string> fi
   if (result.parts.animation) json.put("animation", *result.parts.animation);
   if (const std::string text = camera_json(result.parts, result.camera); !text.empty()) json.put_raw("camera", text);
   if (!result.cube_map.empty()) json.put("cube_map", result.cube_map);
+  if (const std::string text = lenient_text(result.scene); !text.empty()) json.put("lenient", text);
   if (!result.looks.empty()) json.put("looks", result.looks.substr(1));
   if (!result.execution.region.whole()) json.put("region", region_text(result.execution.region));
   json.put_raw("aovs", aovs.text()).put_raw("files", paths.text());

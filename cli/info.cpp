@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/json_text.h"
+#include "cli/looks.h"
 #include "cli/option_values.h"
 #include "cli/preparation.h"
 #include "cli/resolved_scene.h"
@@ -63,7 +64,8 @@ void print_image(const InfoOptions& options) {
 void print_scene(const InfoOptions& options) {
   check_pipeline(options);
   Scene scene = scene_of_options(options);
-  const Pipeline pipeline = layered_pipeline(options, scene);
+  Pipeline pipeline = layered_pipeline(options, scene);
+  set_samples(with_smooth_edges(options, scene).looks, pipeline);
   validate(pipeline);
   const SceneFacts facts = facts_of(scene, pipeline, options.time);
   print(options.json ? facts_json(facts, scene) : facts_text(facts, scene));

@@ -9,6 +9,7 @@
 #include "cli/capture/stored_planes.h"
 #include "cli/looks.h"
 #include "cli/named_file.h"
+#include "cli/notes.h"
 #include "cli/preparation.h"
 #include "cli/shaded_gbuffer.h"
 #include "cli/shell_words.h"
@@ -93,6 +94,7 @@ class SceneJudge {
                              *const hash = metadata_value(pictures_.reference, "trueshade:sceneHash"),
                              *const pipeline = metadata_value(pictures_.reference, "trueshade:pipeline");
     if (hash == nullptr || pipeline == nullptr) throw not_judged("its hash or its pipeline is not named");
+    if (is_lenient(pictures_.reference.metadata)) throw not_judged("its file has faults, and was drawn with --lenient");
     SceneParts parts;
     CameraChanges camera;
     if (const std::string* const text = metadata_value(pictures_.reference, kAnimationKey)) parts.animation = *text;

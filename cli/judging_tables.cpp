@@ -94,6 +94,7 @@ CommandTable validate_table(ValidationOptions& options, ValidationTexts& texts) 
   add_light_program(table, options);
   add_strategy(table, texts.strategy);
   add_looks(table, options.looks);
+  add_trust(table, options.limits);
   add_limits(table, options.limits);
   table.details =
       "Exit codes: 0 every pixel is explained, 1 a pixel is in no legal set or no rounding that is known makes such an "
@@ -196,6 +197,7 @@ CommandTable bench_table(BenchOptions& options, BenchTexts& texts) {
   add_light_program(table, options);
   add_value(table, "--threads", "COUNT", texts.threads, "Threads, 0 for one a core").group = "Execution";
   add_simd(table, options.simd, "best, scalar, sse4, avx2 or avx512");
+  add_trust(table, options.limits);
   add_limits(table, options.limits);
   table.details =
       "Where others kept the machine busy, or frames of a kind took unlike times, each figure is followed by why it is "

@@ -383,6 +383,17 @@ bool is_shown_for_looks(const PipelineOptions& options, const Scene& scene) {
   return scene.is_model && !options.preset && !options.pipeline_file;
 }
 
+PipelineOptions with_smooth_edges(PipelineOptions options, const Scene& scene) {
+  constexpr const char* kSmooth = "4";
+  constexpr int64_t kMostPixels = int64_t(1) << 24;
+  const Size size = options.size.value_or(Size{Pipeline().width, Pipeline().height});
+  const bool is_lit = options.view.value_or(ImageView::lit) == ImageView::lit;
+  if (is_shown_for_looks(options, scene) && is_lit && !options.looks.samples &&
+      int64_t(size.width) * size.height <= kMostPixels)
+    options.looks.samples = kSmooth;
+  return options;
+}
+
 Looks bring_to_looks(const PipelineOptions& options, const Pipeline& pipeline, ChosenLooks chosen, Scene& scene,
                      const ClusteredScene* stored) {
   Looks looks = options.looks;

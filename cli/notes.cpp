@@ -167,9 +167,20 @@ Notes notes_of(const Scene& scene, const Pipeline& pipeline) {
   for (std::string line :
        {boxes ? boxes_line(scene, pipeline.view) : std::string(), boxes ? eye_in_boxes_line(scene) : std::string(),
         pipeline.view == ImageView::uv ? uv_line(scene) : std::string(), lost_volumes_line(scene, pipeline),
-        by_program ? cut_line(scene, pipeline) : std::string(), stand_in_line(scene, pipeline), no_program_line(pipeline)})
+        by_program ? cut_line(scene, pipeline) : std::string(), stand_in_line(scene, pipeline),
+        no_program_line(pipeline)})
     if (!line.empty()) notes.lines.push_back(std::move(line));
   return notes;
+}
+
+std::string lenient_text(const Scene& scene) {
+  std::string text;
+  for (const std::string& line : scene.passed_over) text += (text.empty() ? "" : ". ") + line;
+  return text;
+}
+
+bool is_lenient(const Metadata& metadata) {
+  return std::any_of(metadata.begin(), metadata.end(), [](const auto& entry) { return entry.first == kLenientKey; });
 }
 
 void say_notes(const std::vector<std::string>& lines) {

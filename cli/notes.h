@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "core/image_files/image_io.h"
 #include "scenes/pipeline/ignored_fields.h"
 
 namespace trueshade {
@@ -21,5 +22,12 @@ void say_notes(const std::vector<std::string>& lines);
 /// The ignored fields as an array of {of, field, count, reason}, and the lines as an array of strings.
 std::string ignored_json(const Notes& notes);
 std::string lines_json(const Notes& notes);
+
+/// What a picture's file says of faults of its scene's file that --lenient has passed over: it is no reference.
+inline constexpr const char* kLenientKey = "trueshade:lenient";
+/// Of a scene, what stands there; empty where nothing was passed over.
+std::string lenient_text(const Scene& scene);
+/// Whether metadata say so.
+bool is_lenient(const Metadata& metadata);
 
 }  // namespace trueshade

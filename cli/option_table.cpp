@@ -67,6 +67,33 @@ void add_limits(CommandTable& table, Limits& limits) {
   }
 }
 
+namespace {
+
+constexpr const char* kReading = "Scene files of others";
+
+}  // namespace
+
+void add_trust(CommandTable& table, Limits& limits) {
+  OptionRow row{.names = "--trust-paths",
+                .value_name = "",
+                .help = "Let the scene name files anywhere, by absolute paths and links out of its folder, too",
+                .group = kReading};
+  row.take = [&limits](const std::vector<std::string>&) { limits.named_paths = NamedPaths::any; };
+  table.add(std::move(row));
+}
+
+void add_lenient(CommandTable& table, Limits& limits) {
+  limits.leniency = Leniency::offered;
+  OptionRow row{.names = "--lenient",
+                .value_name = "",
+                .help =
+                    "Show a file that has faults all the same, grey where its pictures are missing; the picture is no "
+                    "reference, and says so",
+                .group = kReading};
+  row.take = [&limits](const std::vector<std::string>&) { limits.leniency = Leniency::asked; };
+  table.add(std::move(row));
+}
+
 void add_quiet(CommandTable& table, CommonOptions& options, std::string help) {
   add_switch(table, "-q,--quiet", options.quiet, std::move(help)).group = "Output";
 }

@@ -75,6 +75,10 @@ OptionRow& add_choice(CommandTable& table, const char* names, const char* value_
 inline constexpr const char* kLimitsGroup = "Limits";
 /// The group of limits, and what else all that read scenes have.
 void add_limits(CommandTable& table, Limits& limits);
+/// Whether a scene file may name any file: of commands that read the scene that the command line names.
+void add_trust(CommandTable& table, Limits& limits);
+/// Whether faults of a file are passed over: of commands that show a scene, and judge nothing.
+void add_lenient(CommandTable& table, Limits& limits);
 /// What every command has.
 void add_quiet(CommandTable& table, CommonOptions& options, std::string help);
 

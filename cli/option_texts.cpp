@@ -309,6 +309,8 @@ ExplainOptions finished(ExplainOptions options, const ExplainTexts& texts) {
   if (!texts.pixel) throw usage("--pixel", "no pixel is named", "add --pixel X,Y, counted from the top left");
   const PixelPlace place = place_from_text("--pixel", *texts.pixel);
   options.x = place.x, options.y = place.y;
+  if (options.against && options.limits.leniency == Leniency::asked)
+    throw usage("--lenient", "no picture is held to a scene whose faults are passed over", "leave it or --against out");
   check_preset(options.preset);
   check_scene(options.scene);
   return options;

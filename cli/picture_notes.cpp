@@ -112,7 +112,7 @@ size_t clamped_pixels(const Image& picture) {
 }
 
 /// How much of a picture stands at the largest value that its format holds, or that a PNG of it does.
-std::string clamp_note(const Pipeline& pipeline, const Image& picture, bool to_png) {
+std::string clamp_note(const Pipeline& pipeline, const Image& picture, bool to_png, bool exposed) {
   constexpr size_t kLeastPercent = 5;
   const FormatInfo layout = info(picture.format);
   const bool floats = layout.number_class == NumberClass::floating;
@@ -122,13 +122,11 @@ std::string clamp_note(const Pipeline& pipeline, const Image& picture, bool to_p
   const size_t pixels = size_t(picture.width) * size_t(picture.height);
   if (100 * clamped < kLeastPercent * pixels) return {};
   const std::string share = std::to_string(clamped) + " of " + std::to_string(pixels) + " pixels have a channel ";
+  const std::string bring = exposed ? ")" : ", and --exposure auto brings it into range)";
   if (floats)
-    return share +
-           "above 1, the largest value of a PNG: Brighter light is cut off there (an EXR keeps it, and --exposure auto "
-           "brings it into range)";
+    return share + "above 1, the largest value of a PNG: Brighter light is cut off there (an EXR keeps it" + bring;
   return share + "at 1, the largest value of " + std::string(layout.name) +
-         ": Brighter light is cut off there (--target rgba16f keeps it, and --exposure auto "
-         "brings it into range)";
+         ": Brighter light is cut off there (--target rgba16f keeps it" + bring;
 }
 
 /// How many pixels are no numbers, which a picture does not show: a PNG has 0 for NaN.
@@ -167,9 +165,10 @@ std::string hidden_note(const Pipeline& pipeline, const Image& picture) {
 
 }  // namespace
 
-std::vector<std::string> picture_notes(const Scene& scene, const Pipeline& pipeline, const Frame& frame, bool to_png) {
+std::vector<std::string> picture_notes(const Scene& scene, const Pipeline& pipeline, const Frame& frame, bool to_png,
+                                       bool exposed) {
   std::vector<std::string> notes;
-  for (std::string note : {black_note(scene, pipeline, frame), clamp_note(pipeline, frame.color, to_png),
+  for (std::string note : {black_note(scene, pipeline, frame), clamp_note(pipeline, frame.color, to_png, exposed),
                            nan_note(pipeline, frame.color), hidden_note(pipeline, frame.color)})
     if (!note.empty()) notes.push_back(std::move(note));
   return notes;

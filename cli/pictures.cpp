@@ -132,7 +132,8 @@ void hand_out(const RenderOptions& options, const std::vector<std::string>& path
   const bool to_png =
       as_it_is && std::any_of(paths.begin(), paths.end(), [](const auto& path) { return has_ending(path, ".png"); });
   if (result.cube_map.empty())  // a face may well show nothing
-    for (std::string& note : picture_notes(result.scene, result.pipeline, result.frame, to_png))
+    for (std::string& note :
+         picture_notes(result.scene, result.pipeline, result.frame, to_png, options.looks.exposure.has_value()))
       result.notes.lines.push_back(std::move(note));
   result.image_hash = image_hash(result.frame.color);
   if (options.json || !paths.empty()) result.scene_hash = scene_hash(result.scene);

@@ -57,25 +57,18 @@ void check_outputs(const RenderOptions& options, const MpiStart& start) {
   }
 }
 
-/// The options with the samples of smooth edges, where none are asked for, of a model that is shown for its looks.
-/// Planes and EXR files are values to be judged, and the legal sets of a sample say nothing of an average. A large
-/// picture is drawn a band at a time, as it is.
-RenderOptions with_smooth_edges(RenderOptions options, Scene& scene) {
-  constexpr const char* kSmooth = "4";
-  constexpr int64_t kMostPixels = int64_t(1) << 24;
-  const Size size = options.size.value_or(Size{Pipeline().width, Pipeline().height});
+/// The options with smooth edges, unless the picture is to be judged: planes and EXR files hold values, and the legal
+/// sets of a sample say nothing of an average. Says so in Scene::notes.
+RenderOptions for_eyes(RenderOptions options, Scene& scene) {
   const bool holds_values =
       !options.aovs.empty() || std::any_of(options.outputs.begin(), options.outputs.end(),
                                            [](const std::string& path) { return has_ending(path, ".exr"); });
-  const bool is_whole = !options.cube_map && options.execution.region.whole();
-  const bool is_lit = options.view.value_or(ImageView::lit) == ImageView::lit;
-  if (!is_shown_for_looks(options, scene) || options.looks.samples || holds_values || !is_whole || !is_lit ||
-      int64_t(size.width) * size.height > kMostPixels)
-    return options;
-  options.looks.samples = kSmooth;
-  scene.notes.push_back(
-      "A pixel is the average of 4 samples, so that edges are smooth (--samples 1 takes one, which "
-      "compare can judge)");
+  if (holds_values || options.cube_map || !options.execution.region.whole()) return options;
+  const Looks looks = with_smooth_edges(options, scene).looks;
+  if (looks.samples != options.looks.samples)
+    scene.notes.push_back("A pixel is the average of " + *looks.samples +
+                          " samples, so that edges are smooth (--samples 1 takes one, which compare can judge)");
+  options.looks = looks;
   return options;
 }
 
@@ -84,7 +77,7 @@ RenderOptions with_smooth_edges(RenderOptions options, Scene& scene) {
 SceneToRender::SceneToRender(const RenderOptions& given, const Execution& execution)
     : cached(cached_scene_of_options(given.scene, given.limits, given.parts)),
       scene(cached.scene),
-      options(with_smooth_edges(given, scene)),
+      options(for_eyes(given, scene)),
       pipeline(pipeline_of(options, scene)) {
   check_cube_map(options, pipeline);
   validate_region(pipeline, options.execution.region);

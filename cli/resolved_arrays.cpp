@@ -75,15 +75,14 @@ void ResolvedArrays::add_piece(std::span<const uint8_t> bytes) {
 std::string ResolvedArrays::in_file(std::string_view type, std::span<const size_t> shape) {
   const size_t axes[] = {shape.size()};
   const std::string lengths = nested(axes, [&](std::string& out, size_t i) { out += std::to_string(shape[i]); });
-  return "{\"type\": \"" + std::string(type) + "\", \"shape\": " + lengths +
-         ", \"offset\": " + std::to_string(bytes_) + "}";
+  return "{\"type\": \"" + std::string(type) + "\", \"shape\": " + lengths + ", \"offset\": " + std::to_string(bytes_) +
+         "}";
 }
 
 std::string ResolvedArrays::streams(std::span<const FloatStream> streams) {
   const size_t shape[] = {streams.size(), streams[0].size()};
   if (place_ == Place::document)
-    return nested(shape,
-                  [&](std::string& out, size_t i) { append_float(out, streams[i / shape[1]][i % shape[1]]); });
+    return nested(shape, [&](std::string& out, size_t i) { append_float(out, streams[i / shape[1]][i % shape[1]]); });
   const std::string place = in_file("float32", shape);
   for (const FloatStream& stream : streams) add_piece(bytes_of(std::span(stream)));
   return place;

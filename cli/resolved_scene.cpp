@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cli/json_text.h"
+#include "cli/notes.h"
 #include "raster/view.h"
 #include "scenes/pipeline/light_mesh.h"
 #include "shading/light/light_table.h"
@@ -266,6 +267,7 @@ std::vector<std::string> resolved_text(const Scene& scene, const Pipeline& pipel
   out.add("version", "1");
   out.add("scene", json_string(scene.spec));
   out.add("hash", json_string("sha256:" + scene_hash(scene)));
+  if (const std::string text = lenient_text(scene); !text.empty()) out.add("lenient", json_string(text));
   out.add("time", json_number(time));
   out.add("file", file.empty() ? "null" : json_string(file));
   out.add("pipeline", pipeline_json(pipeline));

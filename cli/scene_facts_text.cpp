@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "cli/json_text.h"
+#include "cli/notes.h"
 #include "cli/scene_facts.h"
 #include "core/printable_text.h"
 #include "scenes/trig.h"
@@ -234,6 +235,7 @@ std::string facts_text(const SceneFacts& facts, const Scene& scene) {
   uint64_t texture_bytes = 0;
   for (const Texture& texture : scene.textures) texture_bytes += bytes_of(texture);
   std::string text = info_row("scene", scene.spec) + info_row("hash", "sha256:" + facts.hash) +
+                     (scene.passed_over.empty() ? "" : info_row("drawn leniently", lenient_text(scene))) +
                      info_row("bounds", bounds_text(facts.box)) +
                      info_row("meshes", std::to_string(scene.meshes.size()) + " (" + std::to_string(facts.triangles) +
                                             " triangles, " + std::to_string(facts.vertices) + " vertices stored)") +
@@ -260,6 +262,7 @@ std::string facts_json(const SceneFacts& facts, const Scene& scene) {
   for (const std::string& note : scene.notes) notes.add_raw(json_string(note));
   JsonObject json;
   json.put("scene", scene.spec).put("hash", "sha256:" + facts.hash).put("time", scene.time);
+  if (!scene.passed_over.empty()) json.put("lenient", lenient_text(scene));
   json.put_raw("bounds", facts.box ? JsonObject()
                                          .put_raw("least", vector_json(facts.box->least))
                                          .put_raw("most", vector_json(facts.box->most))

@@ -29,6 +29,8 @@ CommandTable info_table(InfoOptions& options, InfoTexts& texts) {
   add_strategy(table, texts.strategy);
   add_target(table, texts.target);
   add_profile(table, texts.profile);
+  add_lenient(table, options.limits);
+  add_trust(table, options.limits);
   add_limits(table, options.limits);
   table.examples = {{"trueshade info model.glb", "Bounds, lights, cameras, animations, textures and memory."},
                     {"trueshade info out.exr", "Sizes, channels, and the hashes and pipeline that a file carries."},
@@ -76,6 +78,7 @@ CommandTable glsl_table(GlslFilesOptions& options, GlslTexts& texts) {
   add_layers(table, options);
   add_light_program(table, options);
   add_strategy(table, texts.strategy);
+  add_trust(table, options.limits);
   add_limits(table, options.limits);
   table.examples = {{"trueshade glsl --preset redsdk -o shaders", "A preset's shaders, with the state around them."}};
   table.see_also = {"validate"};
@@ -93,6 +96,7 @@ CommandTable export_table(ExportOptions& options, ExportTexts& texts) {
   add_value(table, "--time", "SECONDS", texts.time, "Write the scene as it stands at this time, without what moves")
       .group = kCameraGroup;
   add_camera(table, texts.camera);
+  add_trust(table, options.limits);
   add_limits(table, options.limits);
   table.examples = {{"trueshade export builtin:city -o city.glb", "A scene for other programs."}};
   table.see_also = {"render", "info"};

@@ -14,6 +14,16 @@ std::string for_shell(const std::string& word) {
   return quoted + "'";
 }
 
+namespace {
+
+/// How the scene file was read, as options with a space before each.
+std::string reading_words(const Limits& limits) {
+  return std::string(limits.leniency == Leniency::asked ? " --lenient" : "") +
+         (limits.named_paths == NamedPaths::any ? " --trust-paths" : "");
+}
+
+}  // namespace
+
 std::string explain_command(const PipelineOptions& options, const CameraChanges& camera, const Pipeline& pipeline,
                             double time, const std::string& against) {
   std::string command = "trueshade explain " + for_shell(options.scene);
@@ -26,7 +36,7 @@ std::string explain_command(const PipelineOptions& options, const CameraChanges&
   if (options.looks.samples) command += " --samples " + *options.looks.samples;
   command += looks_text(options.looks);
   if (time != 0) command += " --time " + json_number(time);
-  command += camera_words(options.parts, camera);
+  command += camera_words(options.parts, camera) + reading_words(options.limits);
   command += " --pixel {x},{y}";
   if (!against.empty()) command += " --against " + for_shell(against);
   return command;

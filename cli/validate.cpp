@@ -14,6 +14,7 @@
 #include "cli/driver_capture.h"
 #include "cli/judged_mask.h"
 #include "cli/looks.h"
+#include "cli/notes.h"
 #include "cli/option_values.h"
 #include "cli/picture_output.h"
 #include "cli/preparation.h"
@@ -140,11 +141,28 @@ void check_outputs(const ValidationOptions& options) {
 
 }  // namespace
 
+/// The metadata of a capture's files that are pictures.
+static std::vector<std::pair<std::string, Metadata>> metadata_of(const CaptureFiles& files) {
+  std::vector<std::pair<std::string, Metadata>> all;
+  for (const ChannelFile& file : files.files)
+    if (has_ending(file.path, ".exr") || has_ending(file.path, ".png"))
+      all.emplace_back(file.path, read_image_info(file.path).metadata);
+  return all;
+}
+
+/// Error(bad_input) of a picture of ours that shows a scene otherwise than its file has it.
+static void check_not_lenient(const CaptureFiles& files) {
+  for (const auto& [path, metadata] : metadata_of(files))
+    if (is_lenient(metadata))
+      throw Error(ErrorKind::bad_input, path,
+                  "it was drawn with --lenient of a file with faults, so nothing is held to it",
+                  "a capture of a scene that is read without");
+}
+
 /// What a file of ours says that its picture was brought to; nothing of files of others.
 static Looks looks_of_capture(const CaptureFiles& files, std::vector<std::string>& notes) {
-  for (const ChannelFile& file : files.files) {
-    if (!has_ending(file.path, ".exr") && !has_ending(file.path, ".png")) continue;
-    for (const auto& [key, value] : read_image_info(file.path).metadata) {
+  for (const auto& [path, metadata] : metadata_of(files)) {
+    for (const auto& [key, value] : metadata) {
       if (key != "trueshade:looks") continue;
       try {
         const Looks looks = looks_of_text(value);
@@ -166,6 +184,7 @@ bool judge_opengl(const ValidationOptions& options) {
   std::optional<Activity> activity("reading the capture");
   std::optional<CaptureFiles> files;
   if (options.capture.given()) files = capture_files_of(options.capture, options.limits);
+  if (files) check_not_lenient(*files);
   activity->now("reading the scene");
   Scene scene = scene_of_options(options);
   Pipeline asked = pipeline_of(options, scene);

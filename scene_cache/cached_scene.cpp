@@ -46,9 +46,11 @@ std::string cache_path(const std::string& folder, const std::string& spec) {
   return folder + (folder.ends_with('/') ? "" : "/") + name + '-' + sha.hex().substr(0, 16) + ".cache";
 }
 
-/// Another text for other parts; nothing of those that are taken unasked.
-std::string text_of(const SceneParts& parts) {
+/// Another text for other parts, and for another way to read a file; nothing of what is taken unasked.
+std::string text_of(const SceneParts& parts, const SceneLimits& limits) {
   std::string text;
+  if (limits.leniency == Leniency::asked) text += std::string(1, '\0') + "lenient";
+  if (limits.named_paths == NamedPaths::any) text += std::string(1, '\0') + "trust-paths";
   for (const auto& [option, value] : {std::pair{"camera", &parts.camera}, {"animation", &parts.animation}})
     if (*value) text += std::string(1, '\0') + option + '=' + **value;
   return text;
@@ -186,7 +188,7 @@ CachedScene cached_scene(const std::string& folder, const std::string& spec, con
   const FpScope fp;
   check_folder(folder);
   if (spec == "-") return {load(), nullptr, {}};
-  const std::string whole_spec = absolute_spec(spec) + text_of(parts), path = cache_path(folder, whole_spec);
+  const std::string whole_spec = absolute_spec(spec) + text_of(parts, limits), path = cache_path(folder, whole_spec);
   if (auto cached = read_cache(path, whole_spec, limits)) return std::move(*cached);
 
   const int64_t start_ns = now_ns();

@@ -47,7 +47,8 @@ bool is_unchanged(const SceneOrigin& origin) {
 
 bool within(const SceneLimits& limits, const SceneLimits& other) {
   const auto numbers = [](const SceneLimits& of) {
-    const auto& [lights, instances, file, json, texture, buffer, geometry, nodes, depth, expansion] = of;
+    const auto& [lights, instances, file, json, texture, buffer, geometry, nodes, depth, expansion, leniency, paths] =
+        of;
     return std::array{lights, instances, file, json, texture, buffer, geometry, nodes, depth, expansion};
   };
   const auto a = numbers(limits), b = numbers(other);

@@ -35,7 +35,7 @@ std::vector<std::string> program_files();
 /// Whether none of its files has changed since.
 bool is_unchanged(const SceneOrigin& origin);
 
-/// Whether no limit is above the one of `other`.
+/// Whether no limit is above the one of `other`. How a scene is read beside these is in SceneOrigin::spec.
 bool within(const SceneLimits& limits, const SceneLimits& other);
 
 }  // namespace trueshade

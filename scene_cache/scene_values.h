@@ -132,10 +132,10 @@ void each_member(auto& visit, Same<SceneExtension> auto& value) {
 void each_member(auto& visit, Same<Scene> auto& value) {
   auto& [spec, meshes, materials, textures, instances, lights, camera, clear, pipeline_text, timeline, time,
          photometric, lights_of_ours, is_model, camera_of_ours, ground_of_ours, cameras, animations, extensions,
-         digests, notes] = value;
+         digests, notes, passed_over] = value;
   each_of(visit, spec, materials, textures, instances, lights, camera, clear, pipeline_text, timeline, time,
-          photometric, lights_of_ours, is_model, camera_of_ours, ground_of_ours, cameras, animations, extensions,
-          notes);
+          photometric, lights_of_ours, is_model, camera_of_ours, ground_of_ours, cameras, animations, extensions, notes,
+          passed_over);
 }
 
 void each_member(auto& visit, Same<FileState> auto& value) {

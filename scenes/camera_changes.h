@@ -67,7 +67,7 @@ class ChangedCamera {
   glm::dvec3 up_{0.0, 1.0, 0.0};                                   // the vertical axis
   float near_ = 0.0f, far_ = 0.0f;                                 // of the camera whose parts are replaced
   bool of_file_ = false, ground_ = false;                          // a glTF camera; a ground of ours lies there
-  std::optional<std::array<glm::vec3, kLightsOfOurs - 1>> lamps_;  // where they are moved to
+  std::optional<std::array<LampPlace, kLightsOfOurs - 1>> lamps_;  // where they are moved to
 };
 
 /// The changes of `count` pictures around a scene: orbits at even steps of azimuth from that of `changes` on, all from

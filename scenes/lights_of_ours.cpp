@@ -18,6 +18,7 @@ constexpr double kLightDistance = 2.2;               // of all but ambient light
 constexpr double kFalloffThere = 0.6;                // how a lamp's attenuation grows over that distance
 constexpr double kPhotometricShare = 0.4;            // of the squared distance: a lamp's intensity where light spreads
 constexpr double kMostIntensity = 1e17;
+constexpr double kMostAttenuation = 1e18;  // that validate() takes: of a lamp 1e-9 units off
 
 struct Lamp {
   glm::dvec3 from;   // the centre of the bounds
@@ -106,9 +107,23 @@ glm::vec3 place_of(const Bounds& bounds, const glm::dvec3& from) {
   return glm::vec3(bounds.centre + unit(from) * (kLightDistance * bounds.radius));
 }
 
+/// So near that no float holds how its light falls off: it shines as from far away, as brightly as the lamp on the
+/// centre of the bounds.
+Light distant_lamp(const Scene& scene, const glm::dvec3& from, const glm::dvec3& color) {
+  Light light;
+  light.type = LightType::directional;
+  light.direction = glm::vec3(-unit(from));
+  light.color = glm::vec3(color * (scene.photometric ? kPhotometricShare : 1.0 / (1.0 + kFalloffThere)));
+  return light;
+}
+
 void add_lamp(Scene& scene, const Bounds& bounds, const glm::dvec3& from, const glm::dvec3& color) {
   const double distance = kLightDistance * bounds.radius, distance2 = distance * distance;
   const double intensity = scene.photometric ? photometric_intensity(distance2) : 1.0;
+  if (!(kFalloffThere / distance2 <= kMostAttenuation)) {
+    scene.lights.push_back(distant_lamp(scene, from, color));
+    return;
+  }
   Light light;
   light.position = place_of(bounds, from);
   light.color = glm::vec3(color * intensity);
@@ -126,6 +141,7 @@ double mean_reflectance(const Scene& scene) {
 
 double spread_light(const Light& lamp) {
   const FpScope fp;
+  if (lamp.type == LightType::directional) return kPhotometricShare * (1.0 + kFalloffThere);
   if (lamp.type == LightType::ambient || !(lamp.attenuation.z > 0.0f)) return 1.0;
   return photometric_intensity(kFalloffThere / double(lamp.attenuation.z));
 }
@@ -144,12 +160,12 @@ void add_lights_of_ours(Scene& scene) {
   scene.lights_of_ours = true;
 }
 
-std::array<glm::vec3, kLightsOfOurs - 1> lamps_for(const Scene& scene, const glm::dvec3& vertical,
+std::array<LampPlace, kLightsOfOurs - 1> lamps_for(const Scene& scene, const glm::dvec3& vertical,
                                                    const glm::dvec2& turn) {
   const FpScope fp;
   const Bounds bounds = bounds_without_ground(scene);
   const glm::dvec3 right(1.0, 0.0, 0.0), front = cross(right, vertical);
-  std::array<glm::vec3, kLightsOfOurs - 1> places;
+  std::array<LampPlace, kLightsOfOurs - 1> places;
   for (size_t i = 0; i < places.size(); ++i) {
     const glm::dvec3 from = kLamps[i].from;
     const double x = dot(from, right), z = dot(from, front);

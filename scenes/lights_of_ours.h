@@ -15,15 +15,19 @@ inline constexpr size_t kLightsOfOurs = 4;  ///< that add_lights_of_ours() appen
 /// Appends lights of ours to those of a scene, as a photographer lights an object: a warm key light from the upper
 /// left, a cool fill light from the right, a light from behind, and faint ambient light, over a dark background. Dark
 /// surfaces get more light, up to 5 times as much as grey ones but none that would cut a bright surface off at 1, and
-/// white ones less. In a photometric scene the lights are as bright at their distance as in others. None where the
-/// scene has them already.
+/// white ones less. Lamps less than 1e-9 units away shine as from far away. In a photometric scene the lights are as
+/// bright at their distance as in others. None where the scene has them already.
 void add_lights_of_ours(Scene& scene);
 
+struct LampPlace {
+  glm::vec3 position;   ///< of a point light
+  glm::vec3 direction;  ///< of a directional light
+};
 /// Where its lamps stand, all lights of ours but the ambient one, for an eye that has gone around `vertical`, an axis
 /// of length 1, from the front (+z, or -y where z is vertical) to the right: at `turn` = (sine, cosine) of that angle.
 /// They go with the eye, so that a model is lit from every side as from the front. At (0, 1) as add_lights_of_ours()
 /// places them.
-std::array<glm::vec3, kLightsOfOurs - 1> lamps_for(const Scene& scene, const glm::dvec3& vertical,
+std::array<LampPlace, kLightsOfOurs - 1> lamps_for(const Scene& scene, const glm::dvec3& vertical,
                                                    const glm::dvec2& turn);
 
 /// How many times as much light one of these lamps gives in a photometric scene as in others; 1 for ambient light.

@@ -115,6 +115,8 @@ struct Scene {
   std::shared_ptr<const SceneDigests>
       digests{};                     ///< null unless meshes and textures lie in a cache file (scene_cache/)
   std::vector<std::string> notes{};  ///< what of its file the scene leaves out, a full sentence without full stop each
+  std::vector<std::string>
+      passed_over{};  ///< faults of its file, as --lenient asks: it is no reference. Full sentences
 
   uint64_t triangle_count() const;  ///< over all instances
 };

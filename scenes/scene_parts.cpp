@@ -14,15 +14,18 @@ namespace {
 /// The names of one part; empty ones are none.
 using PartNames = std::array<std::string_view, 2>;
 
+/// `0 'Front', 1 'Camera.001' of node 'Side', 2`.
 std::string listed(std::span<const PartNames> parts) {
-  constexpr size_t kMostListed = 30;
+  constexpr size_t kMostListed = 20;
+  const auto quoted = [](std::string_view name) { return " '" + std::string(name) + '\''; };
   std::string list;
   for (size_t i = 0; i < std::min(parts.size(), kMostListed); ++i) {
+    const auto [own, node] = parts[i];
     list += (i > 0 ? ", " : "") + std::to_string(i);
-    for (size_t k = 0; k < parts[i].size(); ++k)
-      if (!parts[i][k].empty() && (k == 0 || parts[i][k] != parts[i][0])) list += ' ' + std::string(parts[i][k]);
+    if (!own.empty()) list += quoted(own);
+    if (!node.empty() && node != own) list += (own.empty() ? "" : " of node") + quoted(node);
   }
-  return parts.size() > kMostListed ? list + ", ..." : list;
+  return parts.size() > kMostListed ? list + " and " + std::to_string(parts.size() - kMostListed) + " more" : list;
 }
 
 /// `kind`: camera or animation, which is the option's name too.

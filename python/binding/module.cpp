@@ -18,7 +18,9 @@ constexpr std::pair<std::string_view, std::string_view> kArgumentOfOption[] = {
     {"--light-shader FILE", "light_shader=FILE"},
     {"--view", "values['view']"},
     {"--pixel", "x, y"},
-    {"--allow-nonfinite", "allow_nonfinite=True"}};
+    {"--allow-nonfinite", "allow_nonfinite=True"},
+    {"--lenient", "lenient=True"},
+    {"--trust-paths", "trust_paths=True"}};
 
 }  // namespace
 

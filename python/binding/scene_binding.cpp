@@ -52,13 +52,15 @@ std::optional<std::string> part_of(const py::object& part) {
 }
 
 std::shared_ptr<PythonScene> load(const py::object& spec_or_path, double time, const py::object& camera,
-                                  const py::object& animation) {
+                                  const py::object& animation, bool lenient, bool trust_paths) {
   const std::string spec = path_of(spec_or_path);
   number_within(time, "time", -kLatestTime, kLatestTime);
   std::shared_ptr<PythonScene> loaded;
   const SceneParts parts{part_of(camera), part_of(animation)};
   const py::gil_scoped_release release;
-  const SceneLimits limits;
+  SceneLimits limits;
+  limits.leniency = lenient ? Leniency::asked : Leniency::offered;
+  if (trust_paths) limits.named_paths = NamedPaths::any;
   loaded = std::make_shared<PythonScene>(load_scene(
       spec, limits,
       [&](std::span<const uint8_t> content, const std::string& where, uint64_t most) {
@@ -367,7 +369,7 @@ std::string described(const PythonScene& scene) {
 void add_scene(py::module_& module) {
   using namespace py::literals;
   module.def("load_scene", &load, doc_of("load_scene"), "spec"_a, "time"_a = 0.0, py::kw_only(),
-             "camera"_a = py::none(), "animation"_a = py::none());
+             "camera"_a = py::none(), "animation"_a = py::none(), "lenient"_a = false, "trust_paths"_a = false);
   const py::tuple zero = py::make_tuple(0.0, 0.0, 0.0), one = py::make_tuple(1.0, 1.0, 1.0);
   const py::tuple quarter = py::make_tuple(0.25, 0.25, 0.25);
   const auto count = [](auto list) { return [list](const PythonScene& s) { return (s.values().*list).size(); }; };

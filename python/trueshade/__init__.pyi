@@ -329,12 +329,16 @@ def load_scene(
     *,
     camera: Union[int, str, None] = None,
     animation: Union[int, str, None] = None,
+    lenient: bool = False,
+    trust_paths: bool = False,
 ) -> Scene:
     """Loads a scene: `builtin:NAME[,KEY=VALUE...]`, or a file that ends in .json, .gltf, .glb, .obj or .ply.
 
     time: seconds, at most 1e6, that what moves is moved to. `trueshade list` and docs/scenes.md have the built-in
     scenes. camera, animation: which of a glTF file's, by number from 0 or by name; the animation may be "all"; without
-    them the first. Raises Error with the file and the place in it.
+    them the first. lenient: faults of a file that harm its looks alone are passed over, and `notes` says which; such a
+    scene is no reference. trust_paths: the file may name others anywhere, by absolute paths and links, too. Raises
+    Error with the file and the place in it.
     """
 
 def render(

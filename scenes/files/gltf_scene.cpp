@@ -15,7 +15,7 @@ Scene scene_from_gltf(std::span<const uint8_t> file, const std::string& path, co
   const FpScope fp;
   const gltf::Container container = gltf::container_of(file, path);
   const gltf::Document document = gltf::read_document(container, path, limits);
-  const SceneFolder folder(path);
+  const SceneFolder folder(path, limits.named_paths);
   gltf::Buffers buffers(document, container, folder, limits);
   auto extras = gltf::read_extras(document, limits);
   Scene scene = extras ? gltf::scene_of_extras(std::move(*extras), buffers, folder, limits, decode)

@@ -208,11 +208,11 @@ bool is_exr(const Bytes& content) {
 
 std::vector<glm::vec3> samples_from_file(const json::Node& node, const BufferSource& source) {
   const std::string where = source.path + ": " + node.pointer();
-  const std::string file = relative_path_from_uri(node.string(), where);
+  const std::string file = path_from_uri(node.string(), where, source.limits.named_paths);
   const bool table = file.ends_with(".csv");
   if (!table && !file.ends_with(".exr")) node.fail("the ending names no format of a buffer", ".csv or .exr");
   if (!table && !source.decode) node.fail("there is no reader of images here", "a .csv file or numbers");
-  const Bytes bytes = SceneFolder(source.path).read(file, source.limits.file_bytes, where);
+  const Bytes bytes = SceneFolder(source.path, source.limits.named_paths).read(file, source.limits.file_bytes, where);
   if (table)
     return samples_from_csv({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, where + ": " + file,
                             source.most);

@@ -69,7 +69,7 @@ TextureLevel MaterialReader::read_level(const json::Node& file, bool upper_left,
                                         bool& has_format, const std::string& encoding) {
   const std::string where = path_ + ": " + file.pointer();
   if (!decode_) file.fail("this program reads no image files", "a pattern");
-  const std::string relative = relative_path_from_uri(file.string(), where);
+  const std::string relative = path_from_uri(file.string(), where, limits_.named_paths);
   const Bytes content = folder_.read(relative, limits_.file_bytes, where);
   Image image =
       decode_(content, where + ": " + relative, limits_.texture_bytes - std::min(bytes_, limits_.texture_bytes));
@@ -100,6 +100,22 @@ void MaterialReader::take(uint64_t bytes, const json::Node& node, When when) {
   if (when == When::later) awaited_ += bytes;
 }
 
+void MaterialReader::read_or_lose_file(const json::Node& file, bool upper_left, const std::string& encoding,
+                                       Texture& texture) try {
+  bool has_format = false;
+  texture.levels.push_back(read_level(file, upper_left, texture.format, has_format, encoding));
+} catch (const Error& error) {
+  faults_.pass(Fault::picture, file.string(), error);
+  lost_.resize(scene_.textures.size() + 1, false);
+  lost_.back() = true;
+}
+
+void MaterialReader::lose_pictures() {
+  lost_.resize(scene_.textures.size(), false);
+  lose_textures(scene_, lost_);
+  faults_.tell(scene_);
+}
+
 Texture MaterialReader::read_texture(const json::Node& node) {
   node.check_keys(kTexture);
   const auto file = node.find("file"), levels = node.find("levels"), pattern = node.find("pattern");
@@ -118,11 +134,11 @@ Texture MaterialReader::read_texture(const json::Node& node) {
   const std::string how = encoding ? std::string(kEncodings[encoding->choice(kEncodings)]) : "";
   const bool upper_left = origin && origin->choice(kOrigins) == 1;
   Texture texture;
-  bool has_format = false;
   if (file) {
-    texture.levels.push_back(read_level(*file, upper_left, texture.format, has_format, how));
+    read_or_lose_file(*file, upper_left, how, texture);
     return texture;
   }
+  bool has_format = false;
   const size_t count = levels->array(1, kMaxTextureLevels).size();
   for (size_t i = 0; i < count; ++i) {
     const json::Node element = levels->element(i);

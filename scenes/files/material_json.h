@@ -4,6 +4,7 @@
 
 #include "scenes/baked_uv.h"
 #include "scenes/builtin/texture_pattern.h"
+#include "scenes/files/content/faults.h"
 #include "scenes/files/content/scene_files.h"
 #include "scenes/json/json_value.h"
 #include "scenes/scene.h"
@@ -42,7 +43,7 @@ class MaterialReader {
  public:
   MaterialReader(Scene& scene, const std::string& path, const SceneFolder& folder, const SceneLimits& limits,
                  const ImageDecoder& decode)
-      : scene_(scene), path_(path), folder_(folder), limits_(limits), decode_(decode) {}
+      : scene_(scene), path_(path), folder_(folder), limits_(limits), decode_(decode), faults_(limits.leniency) {}
 
   void read_textures(const json::Node& list);
   /// `uv`: receives what the maps read, which is left to bake_uv().
@@ -54,6 +55,9 @@ class MaterialReader {
   /// long.
   void make_patterns();
 
+  /// Takes out what could not be read, where this is passed over, and says so. Last.
+  void lose_pictures();
+
   /// Counts bytes of textures. Error(limit) naming `node` before memory for them is taken. `when`: whether it is taken
   /// now.
   enum class When : uint8_t { now, later };
@@ -63,6 +67,7 @@ class MaterialReader {
 
  private:
   Texture read_texture(const json::Node& node);
+  void read_or_lose_file(const json::Node& file, bool upper_left, const std::string& encoding, Texture& texture);
   TextureLevel read_level(const json::Node& file, bool upper_left, TextureFormat& format, bool& has_format,
                           const std::string& encoding);
   TextureSlot read_map(const json::Node& node, UvSource& uv) const;
@@ -72,6 +77,8 @@ class MaterialReader {
   const SceneFolder& folder_;
   const SceneLimits& limits_;
   const ImageDecoder& decode_;
+  Faults faults_;
+  std::vector<bool> lost_;                                   ///< of the scene's textures
   uint64_t bytes_ = 0;                                       ///< of all levels
   uint64_t awaited_ = 0;                                     ///< of those that are not made yet
   std::vector<std::pair<size_t, TexturePattern>> patterns_;  ///< of textures of the scene; not made yet

@@ -168,6 +168,7 @@ void ObjectReader::check_grids(const json::Node& list) const {
 
 void ObjectReader::finish() {
   surfaces_.make_patterns();
+  surfaces_.lose_pictures();
   uv_sources_.resize(scene_.materials.size());
   uint64_t bytes = 0;
   bake_uv(scene_, uv_sources_, [&](uint64_t more) {
@@ -223,7 +224,8 @@ void ObjectReader::add_grid(const json::Node& node, std::vector<Instance> instan
   const uint64_t copies = copies_of(grid), here = scene_.instances.size(),
                  room = limits_.instances - std::min(limits_.instances, here);
   if (copies > room / std::max<size_t>(instances.size(), 1))
-    node.fail("the objects are over the limit", within_limit(limits_.instances, "", "--max-instances"), ErrorKind::limit);
+    node.fail("the objects are over the limit", within_limit(limits_.instances, "", "--max-instances"),
+              ErrorKind::limit);
   const uint64_t more = copies * instances.size();
   require_memory(more * (kDrawnInstanceBytes + (motion ? sizeof(MovingInstance) : 0)), path_ + ": " + node.pointer(),
                  "drawing the objects");
@@ -254,7 +256,7 @@ const std::vector<ObjectReader::Part>& ObjectReader::parts(const json::Node& nod
   constexpr std::string_view kNormals[] = {"flat", "smooth"};
   const MissingNormals missing = normals ? MissingNormals(normals->choice(kNormals)) : MissingNormals::flat;
   const std::string where = path_ + ": " + geometry->pointer();
-  const std::string file = relative_path_from_uri(geometry->string(), where);
+  const std::string file = path_from_uri(geometry->string(), where, limits_.named_paths);
   const bool is_ply = is_geometry_name(file);
   if (!is_ply && !is_gltf_name(file) && !is_obj_name(file))
     geometry->fail("the ending names no geometry format", ".gltf, .glb, .obj, .obj.gz, .ply or .ply.gz");
@@ -276,13 +278,13 @@ std::vector<ObjectReader::Part> ObjectReader::parts_of_ply(const std::string& fi
 std::vector<ObjectReader::Part> ObjectReader::parts_of_models(const std::string& file, MissingNormals missing,
                                                               const std::string& where) {
   const Bytes bytes = folder_.read(file, limits_.file_bytes, where);
-  const size_t slash = path_.rfind('/');
-  const std::string path = slash == std::string::npos ? file : path_.substr(0, slash + 1) + file;
+  const std::string path = path_below(path_.substr(0, path_.rfind('/') + 1), file);  // npos + 1 is 0
   SceneLimits left = limits_;
   left.texture_bytes -= std::min(left.texture_bytes, surfaces_.bytes());
-  GltfGeometry geometry = geometry_of(is_gltf_name(file)
-                                          ? scene_from_gltf(bytes, path, left, decode_)
-                                          : scene_from_obj(bytes, path, left, decode_, missing));
+  Scene model = is_gltf_name(file) ? scene_from_gltf(bytes, path, left, decode_)
+                                   : scene_from_obj(bytes, path, left, decode_, missing);
+  tell_passed_over(model.passed_over, scene_);
+  GltfGeometry geometry = geometry_of(std::move(model));
   const uint32_t first_material = uint32_t(scene_.materials.size());
   const int32_t first_texture = int32_t(scene_.textures.size());
   for (Material& material : geometry.materials) {

@@ -23,7 +23,7 @@ class ObjectReader {
   ObjectReader(Scene& scene, const std::string& path, const SceneLimits& limits, const ImageDecoder& decode)
       : scene_(scene),
         path_(path),
-        folder_(path),
+        folder_(path, limits.named_paths),
         limits_(limits),
         decode_(decode),
         surfaces_(scene, path_, folder_, limits_, decode) {}

@@ -25,14 +25,14 @@ LightChange change_from_json(const json::Node& node) {
   return change;
 }
 
-/// A file's path from here: it lies in the folder of the file that names it, or below.
+/// A file's path from here.
 std::string referred_path(const json::Node& node, const std::string& path, const SceneLimits& limits) {
   const std::string& text = node.string();
   if (text.starts_with(kBuiltin)) return text;
   const std::string where = path + ": " + node.pointer();
-  const std::string relative = relative_path_from_uri(text, where);
-  SceneFolder(path).check(relative, limits.file_bytes, where);
-  return path.substr(0, path.rfind('/') + 1) + relative;  // npos + 1 is 0
+  const std::string other = path_from_uri(text, where, limits.named_paths);
+  SceneFolder(path, limits.named_paths).check(other, limits.file_bytes, where);
+  return path_below(path.substr(0, path.rfind('/') + 1), other);  // npos + 1 is 0
 }
 
 }  // namespace

@@ -244,7 +244,7 @@ TEST_CASE("cameras that cannot be, and options that do not go together, end in o
   refused({"--camera", "Side"}, "--camera: slab.obj has no camera 'Side' (it has, by number: 0)");
   refused({"--animation", "0"}, "--animation: slab.obj has no animation '0'");
   check_refused(folder.run({"render", "two.gltf", "--hash", "--camera", "Frnot"}), 2,
-                "no camera 'Frnot' (did you mean Front? it has, by number: 0 Front, 1 Far out)");
+                "no camera 'Frnot' (did you mean Front? it has, by number: 0 'Front', 1 'Far out')");
   check_refused(folder.run({"info", "two.gltf", "--orbit", "1,2"}), 2, "--orbit: only a scene's numbers");
   check_refused(folder.run({"glsl", "--preset", "redsdk", "--fov", "40", "-o", "x"}), 2, "--fov: there is no scene");
   refused({"--target", "1,2,3"}, "--look-at");

@@ -122,7 +122,8 @@ void check_library(const obj::MtlDocument& document) {
 void run_obj(Bytes bytes) {
   for (const MissingNormals missing : {MissingNormals::smooth, MissingNormals::flat})
     read([&] {
-      const obj::ObjDocument document = obj::read_obj(bytes, "m.obj", small_limits());
+      Faults faults(Leniency::refused);
+      const obj::ObjDocument document = obj::read_obj(bytes, "m.obj", small_limits(), faults);
       check_document(document);
       Scene scene = scene_from_obj(bytes, "m.obj", small_limits(), picture_of_name, missing, files_with(kLibrary));
       check_meshes(scene, document.corners.size() - 2 * document.polygon_count());
@@ -132,7 +133,8 @@ void run_obj(Bytes bytes) {
 
 void run_mtl(Bytes bytes) {
   read([&] {
-    const obj::MtlDocument document = obj::read_mtl(bytes, "m.mtl");
+    Faults faults(Leniency::refused);
+    const obj::MtlDocument document = obj::read_mtl(bytes, "m.mtl", faults);
     check_library(document);
     std::string file = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 2\n";
     for (const obj::MtlMaterial& material : document.materials)

@@ -116,6 +116,46 @@ TEST_CASE("geometry alone: where light spreads by the inverse square, a model of
   CHECK(scene.lights.at(0).color == stated);
 }
 
+TEST_CASE("geometry alone: lamps so near that no float holds their falloff shine as from far away") {
+  const auto box_of = [](const char* size) {
+    std::string text;
+    for (int corner = 0; corner < 8; ++corner) {
+      text += 'v';
+      for (int k = 0; k < 3; ++k) text += std::string(" ") + (corner >> k & 1 ? size : "0");
+      text += '\n';
+    }
+    return text + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+  };
+  Pipeline spreading;
+  spreading.light_model.falloff = Falloff::inverse_square;
+  const Scene one = loaded(box_of("1"));
+  for (const char* size : {"1e-20", "1e-10", "1e-8", "1e17"}) {
+    INFO(size);
+    Scene scene = loaded(box_of(size));
+    REQUIRE(scene.lights.size() == one.lights.size());
+    for (size_t i = 0; i + 1 < one.lights.size(); ++i) {
+      const Light &lamp = scene.lights[i], &usual = one.lights[i];
+      const double k = std::strtod(size, nullptr);
+      const glm::dvec3 way = glm::dvec3(usual.position) - glm::dvec3(0.5);
+      const double distance2 = (way.x * way.x + way.y * way.y) + way.z * way.z;
+      const double there = 1.0 + double(usual.attenuation.z) * distance2;  // at the model's middle
+      if (k <= 1e-10) {
+        CHECK(lamp.type == LightType::directional);
+        for (int c = 0; c < 3; ++c) {
+          CHECK(double(lamp.direction[c]) == Approx(-way[c] / std::sqrt(distance2)));
+          CHECK(double(lamp.color[c]) == Approx(double(usual.color[c]) / there));
+        }
+      } else {
+        CHECK(lamp.type == LightType::point);
+        CHECK(lamp.color == usual.color);
+        CHECK(double(lamp.attenuation.z) * k * k == Approx(double(usual.attenuation.z)));
+      }
+    }
+    fit_lights_of_ours(scene, spreading);
+    if (std::strtod(size, nullptr) <= 1e-10) CHECK(double(scene.lights[0].color.x) == Approx(0.4 * 1.45));
+  }
+}
+
 TEST_CASE("geometry alone: where a light program divides diffuse light by pi, lamps have pi times as much") {
   Scene formula = loaded(box(0.0, 0.0, 0.0, 1.0)), program = formula;
   fit_lights_of_ours(formula, *preset_pipeline("punctual"));

@@ -25,6 +25,8 @@ namespace {
 // O_NONBLOCK: opening a FIFO must not wait for its other end before fstat can refuse it.
 constexpr int kOpenFlags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
 
+const std::string kOrTrusted = ", or --trust-paths where you trust the file";
+
 class Descriptor {
  public:
   explicit Descriptor(int fd) : fd_(fd) {}
@@ -72,7 +74,8 @@ void check_opened(int fd, const std::string& place, const std::string& path) {
   const int error = errno;
   note_read(path, kAbsent);
   if (error == EXDEV || error == ELOOP)
-    throw Error(ErrorKind::bad_input, place, "a link leads out of the scene's folder", "a file inside the folder");
+    throw Error(ErrorKind::bad_input, place, "a link leads out of the scene's folder",
+                "a file inside the folder" + kOrTrusted);
   throw Error(ErrorKind::io, place, std::strerror(error), "a file that exists and can be read");
 }
 
@@ -95,7 +98,8 @@ bool has_scheme(std::string_view uri) {
   return colon != std::string_view::npos && colon > 0 && uri[colon] == ':';
 }
 
-/// The lists in which paths are noted now. One set for the process, because the files of a scene are read on any thread.
+/// The lists in which paths are noted now. One set for the process, because the files of a scene are read on any
+/// thread.
 struct Notebooks {
   std::mutex mutex;
   std::set<std::set<std::string>*> open;
@@ -156,9 +160,15 @@ Bytes read_user_file(const std::string& path, uint64_t limit, std::string_view o
   return bytes;
 }
 
-std::string relative_path_from_uri(std::string_view uri, std::string_view where) {
-  const auto fail = [&](const char* reason) {
-    throw Error(ErrorKind::bad_input, where, reason, "a path relative to the scene's folder and inside it");
+std::string path_below(const std::string& folder_path, const std::string& path) {
+  return path.starts_with('/') ? path : folder_path + path;
+}
+
+std::string path_from_uri(std::string_view uri, std::string_view where, NamedPaths paths) {
+  const std::string remedy = "a path relative to the scene's folder and inside it";
+  const auto fail = [&](const char* reason) { throw Error(ErrorKind::bad_input, where, reason, remedy); };
+  const auto fail_unless_trusted = [&](const char* reason) {
+    if (paths == NamedPaths::inside) throw Error(ErrorKind::bad_input, where, reason, remedy + kOrTrusted);
   };
   if (has_scheme(uri)) fail("the path has a scheme");
   std::string path;
@@ -176,13 +186,14 @@ std::string relative_path_from_uri(std::string_view uri, std::string_view where)
     path += c;
   }
   if (path.empty()) fail("the path is empty");
-  if (path[0] == '/') fail("the path is absolute");
-  if (climbs_out(path)) fail("the path leaves the scene's folder");
+  if (path[0] == '/') fail_unless_trusted("the path is absolute");
+  if (climbs_out(path)) fail_unless_trusted("the path leaves the scene's folder");
   if (path.size() >= PATH_MAX) fail("the path is too long");
   return path;
 }
 
-SceneFolder::SceneFolder(const std::string& scene_path) : name_(folder_of(scene_path)) {
+SceneFolder::SceneFolder(const std::string& scene_path, NamedPaths paths)
+    : name_(folder_of(scene_path)), paths_(paths) {
   folder_ = open(name_.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
   if (folder_ < 0)
     throw Error(ErrorKind::io, scene_path, std::string("its folder: ") + std::strerror(errno),
@@ -191,8 +202,13 @@ SceneFolder::SceneFolder(const std::string& scene_path) : name_(folder_of(scene_
 
 SceneFolder::~SceneFolder() { close(folder_); }
 
+int SceneFolder::open_named(const std::string& path, bool portable) const {
+  FilesRead::note(path_of(path));
+  if (paths_ == NamedPaths::any) return openat(folder_, path.c_str(), kOpenFlags);
+  return open_beneath(path, portable);
+}
+
 int SceneFolder::open_beneath(const std::string& relative, bool portable) const {
-  FilesRead::note(path_of(relative));
   if (!portable) {
     open_how how{};
     how.flags = uint64_t(kOpenFlags);
@@ -213,21 +229,21 @@ int SceneFolder::open_beneath(const std::string& relative, bool portable) const 
   return open(file.c_str(), kOpenFlags | O_NOFOLLOW);
 }
 
-Bytes SceneFolder::read(const std::string& relative, uint64_t limit, std::string_view where, bool portable) const {
-  const Descriptor file(open_beneath(relative, portable));
-  const std::string place = std::string(where) + ": " + relative;
-  check_opened(file.get(), place, path_of(relative));
+Bytes SceneFolder::read(const std::string& path, uint64_t limit, std::string_view where, bool portable) const {
+  const Descriptor file(open_named(path, portable));
+  const std::string place = std::string(where) + ": " + path;
+  check_opened(file.get(), place, path_of(path));
   Bytes bytes = content(file.get(), limit, place, "--max-file");
-  note_read(path_of(relative), bytes);
+  note_read(path_of(path), bytes);
   return bytes;
 }
 
-void SceneFolder::check(const std::string& relative, uint64_t limit, std::string_view where) const {
-  const Descriptor file(open_beneath(relative, false));
-  const std::string place = std::string(where) + ": " + relative;
-  check_opened(file.get(), place, path_of(relative));
+void SceneFolder::check(const std::string& path, uint64_t limit, std::string_view where) const {
+  const Descriptor file(open_named(path, false));
+  const std::string place = std::string(where) + ": " + path;
+  check_opened(file.get(), place, path_of(path));
   checked_size(file.get(), limit, place, "--max-file");
-  note_read(path_of(relative), kThere);
+  note_read(path_of(path), kThere);
 }
 
 }  // namespace trueshade

@@ -9,7 +9,11 @@ namespace trueshade::gltf {
 
 Buffers::Buffers(const Document& document, const Container& container, const SceneFolder& folder,
                  const SceneLimits& limits)
-    : document_(document), folder_(folder), left_(limits.buffer_bytes), limit_(limits.buffer_bytes) {
+    : document_(document),
+      folder_(folder),
+      left_(limits.buffer_bytes),
+      limit_(limits.buffer_bytes),
+      paths_(limits.named_paths) {
   owned_.resize(document.buffers.size());
   buffers_.resize(document.buffers.size());
   unpacked_.resize(document.views.size());
@@ -54,7 +58,7 @@ Bytes Buffers::bytes_of_uri(const std::string& uri, const std::string& where) {
                   "application/octet-stream or application/gltf-buffer");
     bytes = std::move(data.bytes);
   } else {
-    bytes = folder_.read(relative_path_from_uri(uri, where), left_, where);
+    bytes = folder_.read(path_from_uri(uri, where, paths_), left_, where);
   }
   take(bytes.size(), where);
   return bytes;

@@ -29,6 +29,7 @@ class Buffers {
   const Document& document_;
   const SceneFolder& folder_;
   uint64_t left_, limit_;
+  NamedPaths paths_;
   std::vector<Bytes> owned_;
   std::vector<std::span<const uint8_t>> buffers_;  ///< empty where a buffer has no data
   std::vector<std::unique_ptr<Bytes>> unpacked_;   ///< one a view, made when first asked for

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scenes/baked_uv.h"
+#include "scenes/files/content/faults.h"
 #include "scenes/files/gltf/glb.h"
 #include "scenes/json/json_value.h"
 #include "scenes/light.h"
@@ -243,9 +244,13 @@ struct Document {
   std::vector<std::vector<uint32_t>> scenes;  ///< root nodes of each
   uint32_t scene = kNone;
   std::optional<json::Value> extras;  ///< of the root
+  Faults faults{Leniency::refused};
 
   /// Throws `FILE: POINTER: reason (remedy)`.
   [[noreturn]] void fail(const std::string& pointer, const std::string& reason, const std::string& remedy) const;
+
+  /// Throws the same, or passes the fault over.
+  void pass(Fault fault, const std::string& pointer, const std::string& reason, const std::string& remedy);
 };
 
 /// JSON pointer of an element: pointer_to("meshes", 3, "primitives", 0) is `/meshes/3/primitives/0`.

@@ -1,9 +1,33 @@
 #include "scenes/files/gltf/hierarchy.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "core/error.h"
 #include "scenes/hierarchy.h"
 
 namespace trueshade::gltf {
+
+namespace {
+
+/// Those that lie below none of the others. Nodes of a scene are roots, unless a fault was passed over.
+std::vector<uint32_t> outermost(const Document& document, const std::vector<uint32_t>& nodes) {
+  std::vector<bool> is_below(document.nodes.size(), false);
+  std::vector<uint32_t> waiting = nodes, out;
+  while (!waiting.empty()) {
+    const uint32_t node = waiting.back();
+    waiting.pop_back();
+    for (const uint32_t child : document.nodes[node].children) {
+      if (is_below[child]) continue;
+      is_below[child] = true;
+      waiting.push_back(child);
+    }
+  }
+  std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(out), [&](uint32_t node) { return !is_below[node]; });
+  return out;
+}
+
+}  // namespace
 
 Hierarchy hierarchy_of(const Document& document, const SceneLimits& limits) {
   struct Waiting {
@@ -12,7 +36,7 @@ Hierarchy hierarchy_of(const Document& document, const SceneLimits& limits) {
   };
   std::vector<uint32_t> roots;
   if (!document.scenes.empty()) {
-    roots = document.scenes[document.scene == kNone ? 0 : document.scene];
+    roots = outermost(document, document.scenes[document.scene == kNone ? 0 : document.scene]);
   } else {
     for (uint32_t i = 0; i < document.nodes.size(); ++i)
       if (document.nodes[i].parent == kNone) roots.push_back(i);
@@ -40,8 +64,8 @@ std::vector<SceneNode> scene_nodes(const Document& document, const Hierarchy& hi
   out.reserve(hierarchy.nodes.size());
   for (const uint32_t index : hierarchy.nodes) {
     const NodeSource& node = document.nodes[index];
-    out.push_back({node.parent == kNone ? -1 : int32_t(hierarchy.placed[node.parent]),
-                   node.matrix ? *node.matrix : matrix_of(node.placement)});
+    const uint32_t parent = node.parent == kNone ? kNone : hierarchy.placed[node.parent];
+    out.push_back({parent == kNone ? -1 : int32_t(parent), node.matrix ? *node.matrix : matrix_of(node.placement)});
   }
   return out;
 }

@@ -10,23 +10,26 @@ bool Materials::is_invisible(uint32_t index) const {
 uint32_t Materials::scene_material(uint32_t index) {
   const auto [found, is_new] = materials_.emplace(index, uint32_t(scene_.materials.size()));
   if (!is_new) return found->second;
-  const MaterialSource from = index == kNone ? MaterialSource() : document_.materials[index];
+  MaterialSource from = index == kNone ? MaterialSource() : document_.materials[index];
   const std::string pointer = pointer_to("materials", index);
-  if (from.alpha_mode == AlphaMode::unknown)
-    document_.fail(pointer + "/alphaMode", "this mode is not in glTF", "OPAQUE, MASK or BLEND");
+  if (from.alpha_mode == AlphaMode::unknown) {
+    faults_.pass(Fault::value, document_.file + ": " + pointer + "/alphaMode", "this mode is not in glTF",
+                 "OPAQUE, MASK or BLEND");
+    from.alpha_mode = AlphaMode::opaque;
+  }
   Material m;
   m.name = from.name;
   m.base_color = from.base_color;
   m.metallic = from.metallic;
   m.roughness = from.roughness;
   for (int k = 0; k < 3; ++k) m.emission[k] = float(double(from.emission[k]) * double(from.emission_strength));
-  m.color_map = slot(from.base_color_map, TextureFormat::srgb8_a8);
-  m.metallic_roughness_map = slot(from.metallic_roughness_map, TextureFormat::rgba8);
-  m.normal_map = slot(from.normal_map, TextureFormat::rgba8);
+  set_map(from.base_color_map, TextureFormat::srgb8_a8, &Material::color_map, m);
+  set_map(from.metallic_roughness_map, TextureFormat::rgba8, &Material::metallic_roughness_map, m);
+  set_map(from.normal_map, TextureFormat::rgba8, &Material::normal_map, m);
   m.normal_scale = m.normal_map.used() ? from.normal_scale : 1.0f;
-  m.occlusion_map = slot(from.occlusion_map, TextureFormat::rgba8);
+  set_map(from.occlusion_map, TextureFormat::rgba8, &Material::occlusion_map, m);
   m.occlusion_strength = m.occlusion_map.used() ? from.occlusion_strength : 1.0f;
-  m.emission_map = slot(from.emission_map, TextureFormat::srgb8_a8);
+  set_map(from.emission_map, TextureFormat::srgb8_a8, &Material::emission_map, m);
   m.alpha_cutoff = from.alpha_mode == AlphaMode::mask ? from.alpha_cutoff : 0.0f;
   m.transparent = from.alpha_mode == AlphaMode::blend;
   if (from.alpha_mode == AlphaMode::opaque) m.base_color.w = 1.0f;
@@ -42,19 +45,20 @@ uint32_t Materials::scene_material(uint32_t index) {
   return found->second;
 }
 
-TextureSlot Materials::slot(const TextureInfo& info, TextureFormat format) {
-  TextureSlot slot;
-  if (info.texture == kNone) return slot;
+void Materials::set_map(const TextureInfo& info, TextureFormat format, TextureSlot Material::*map, Material& m) {
+  if (info.texture == kNone) return;
   const TextureSource& source = document_.textures[info.texture];
-  if (source.image == kNone)
-    document_.fail(pointer_to("textures", info.texture),
-                   source.other_image.empty()
-                       ? "the texture has no source"
-                       : "the texture has a source of " + source.other_image + " alone, which is not implemented",
-                   "a source that is PNG or JPEG");
+  if (source.image == kNone) {
+    faults_.pass(Fault::picture, document_.file + ": " + pointer_to("textures", info.texture),
+                 source.other_image.empty()
+                     ? "the texture has no source"
+                     : "the texture has a source of " + source.other_image + " alone, which is not implemented",
+                 "a source that is PNG or JPEG");
+    return lose_map(m, map);
+  }
+  TextureSlot& slot = m.*map;
   slot.sampler = source.sampler;
   slot.texture = pictures_.texture(source.image, format, slot.sampler.mip_filter != MipFilter::none);
-  return slot;
 }
 
 }  // namespace trueshade::gltf

@@ -12,8 +12,8 @@ namespace trueshade::gltf {
 /// Borrows all it is given.
 class Materials {
  public:
-  Materials(const Document& document, Pictures& pictures, Scene& scene)
-      : document_(document), pictures_(pictures), scene_(scene) {}
+  Materials(const Document& document, Pictures& pictures, Faults& faults, Scene& scene)
+      : document_(document), pictures_(pictures), faults_(faults), scene_(scene) {}
 
   /// Index into Scene::materials; kNone stands for glTF's default material.
   uint32_t scene_material(uint32_t index);
@@ -25,10 +25,11 @@ class Materials {
   const std::vector<UvSources>& uv_sources() const { return uv_sources_; }
 
  private:
-  TextureSlot slot(const TextureInfo& info, TextureFormat format);
+  void set_map(const TextureInfo& info, TextureFormat format, TextureSlot Material::*map, Material& m);
 
   const Document& document_;
   Pictures& pictures_;
+  Faults& faults_;
   Scene& scene_;
   std::map<uint32_t, uint32_t> materials_;  ///< by index in the document
   std::vector<UvSources> uv_sources_;       ///< by index in the scene

@@ -22,10 +22,7 @@ void check_magic(std::span<const uint8_t> content, const std::string& where) {
   throw Error(ErrorKind::bad_input, where, "the picture is " + std::string(kind), "PNG or JPEG");
 }
 
-void check_media_type(const std::string& type, const std::string& where) {
-  if (type != "image/png" && type != "image/jpeg")
-    throw Error(ErrorKind::bad_input, where, "the media type is neither image/png nor image/jpeg", "one of these");
-}
+bool is_media_type(std::string_view type) { return type == "image/png" || type == "image/jpeg"; }
 
 }  // namespace
 
@@ -69,12 +66,32 @@ void Pictures::check() {
   std::set<std::string_view> looked_for;  // many images may name one file
   for (uint32_t i = 0; i < document_.images.size(); ++i) {
     const std::optional<std::string>& uri = document_.images[i].uri;
-    if (!first_of_.contains(i) && uri && looked_for.insert(*uri).second) check_file(i);
+    if (first_of_.contains(i) || !uri || !looked_for.insert(*uri).second) continue;
+    try {
+      check_file(i);
+    } catch (const Error& error) {
+      lose(i, error);
+    }
   }
   std::map<uint32_t, std::string_view> kinds;
   for (const Wanted& wanted : wanted_)
-    if (const auto [kind, is_new] = kinds.try_emplace(wanted.image); is_new) kind->second = check_content(wanted.image);
+    if (const auto [kind, is_new] = kinds.try_emplace(wanted.image); is_new) try {
+        kind->second = check_content(wanted.image);
+      } catch (const Error& error) {
+        lose(wanted.image, error);
+      }
   check_media_types(kinds);
+}
+
+void Pictures::lose(uint32_t image, const Error& error) {
+  faults_.pass(Fault::picture, place_of(image), error);
+  lost_.insert(image);
+}
+
+std::vector<bool> Pictures::lost() const {
+  std::vector<bool> lost;
+  for (const Wanted& wanted : wanted_) lost.push_back(lost_.contains(wanted.image));
+  return lost;
 }
 
 /// What a picture is. A decoder that may make no bytes reads the header and ends there.
@@ -95,12 +112,15 @@ void Pictures::check_media_types(const std::map<uint32_t, std::string_view>& kin
   std::string first;
   size_t others = 0;
   for (const auto& [image, first_image] : first_of_) {
+    if (lost_.contains(first_image)) continue;
     const ImageSource& source = document_.images[image];
-    if (!source.mime.empty()) check_media_type(source.mime, place_of(image) + "/mimeType");
+    if (!source.mime.empty() && !is_media_type(source.mime))
+      faults_.pass(Fault::value, place_of(image) + "/mimeType", "the media type is neither image/png nor image/jpeg",
+                   "one of these");
     const std::string_view kind = kinds.at(first_image), right = kind == "PNG" ? "image/png" : "image/jpeg";
     const std::string of_uri = source.uri ? std::string(media_type_of_uri(*source.uri)) : std::string();
     for (const std::string& type : {source.mime, of_uri}) {
-      if (type == right || (type != "image/png" && type != "image/jpeg")) continue;
+      if (type == right || !is_media_type(type)) continue;
       if (first.empty())
         first = "the media type of " + pointer_to("images", image) + " is " + type + ", and its picture is " +
                 std::string(kind) + ", which is read";
@@ -120,13 +140,15 @@ void Pictures::decode_all(const std::function<void()>& meanwhile) {
   for (size_t first = kTogether; first < wanted_.size(); first += kTogether)
     decode_some(first, std::min(kTogether, wanted_.size() - first), [] {});
   parallel_for(int(wanted_.size()), 0, [&](int i) {
-    if (wanted_[size_t(i)].has_levels) build_mip_chain(scene_.textures[size_t(i)]);
+    const Wanted& wanted = wanted_[size_t(i)];
+    if (wanted.has_levels && !lost_.contains(wanted.image)) build_mip_chain(scene_.textures[size_t(i)]);
   });
 }
 
 void Pictures::decode_some(size_t first, size_t count, const std::function<void()>& meanwhile) {
   std::vector<Task> tasks(count);
-  for (size_t i = 0; i < count; ++i) tasks[i].content = content(wanted_[first + i].image);
+  for (size_t i = 0; i < count; ++i)
+    if (const uint32_t image = wanted_[first + i].image; !lost_.contains(image)) tasks[i].content = content(image);
   // A chain of levels adds a third at most.
   const auto left = [this] { return (limits_.texture_bytes - std::min(limits_.texture_bytes, bytes_)) / 4 * 3; };
   const uint64_t share = left() / kTogether;
@@ -134,6 +156,7 @@ void Pictures::decode_some(size_t first, size_t count, const std::function<void(
     if (i == 0) return meanwhile();  // what it throws ends the loop
     const size_t at = size_t(i) - 1;
     Task& task = tasks[at];
+    if (lost_.contains(wanted_[first + at].image)) return;
     try {
       task.image = decode_(task.content.bytes, place_of(wanted_[first + at].image), share);
     } catch (const Error& error) {
@@ -145,10 +168,17 @@ void Pictures::decode_some(size_t first, size_t count, const std::function<void(
   });
   for (size_t i = 0; i < count; ++i) {
     Task& task = tasks[i];
-    if (task.too_large)
-      task.image = decode_(task.content.bytes, place_of(wanted_[first + i].image), left());
-    else if (task.error)
-      std::rethrow_exception(task.error);
+    const uint32_t image = wanted_[first + i].image;
+    if (lost_.contains(image)) continue;
+    try {
+      if (task.too_large)
+        task.image = decode_(task.content.bytes, place_of(image), left());
+      else if (task.error)
+        std::rethrow_exception(task.error);
+    } catch (const Error& error) {
+      lose(image, error);
+      continue;
+    }
     take(std::move(task.image), first + i);
   }
 }
@@ -181,7 +211,7 @@ void Pictures::check_file(uint32_t image) const {
   if (is_data_uri(uri))
     data_of_uri(uri, where, limits_.file_bytes);
   else
-    folder_.check(relative_path_from_uri(uri, where), limits_.file_bytes, where);
+    folder_.check(path_from_uri(uri, where, limits_.named_paths), limits_.file_bytes, where);
 }
 
 Pictures::Content Pictures::content(uint32_t image) const {
@@ -190,12 +220,12 @@ Pictures::Content Pictures::content(uint32_t image) const {
   Content out;
   if (source.view != kNone) {
     if (document_.views[source.view].stride != 0)
-      throw Error(ErrorKind::bad_input, where, "the view of a picture has a stride", "a view without one");
+      faults_.pass(Fault::stride, where, "the view of a picture has a stride", "a view without one");
     out.bytes = buffers_.view(source.view);
     return out;
   }
   out.owned = is_data_uri(*source.uri) ? data_of_uri(*source.uri, where + "/uri", limits_.file_bytes).bytes
-                                       : folder_.read(relative_path_from_uri(*source.uri, where + "/uri"),
+                                       : folder_.read(path_from_uri(*source.uri, where + "/uri", limits_.named_paths),
                                                       limits_.file_bytes, where + "/uri");
   out.bytes = out.owned;  // moving a vector leaves its elements where they are
   return out;

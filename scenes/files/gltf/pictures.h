@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,12 +15,13 @@ namespace trueshade::gltf {
 class Pictures {
  public:
   Pictures(Buffers& buffers, const SceneFolder& folder, const SceneLimits& limits, const ImageDecoder& decode,
-           Scene& scene)
+           Faults& faults, Scene& scene)
       : buffers_(buffers),
         document_(buffers.document()),
         folder_(folder),
         limits_(limits),
         decode_(decode),
+        faults_(faults),
         scene_(scene) {}
 
   /// Index of a picture in Scene::textures, where it has no texels before decode_all(). Images that name the same view
@@ -37,6 +39,9 @@ class Pictures {
   /// throws, else that of the first picture. No picture is begun after `meanwhile` has failed.
   void decode_all(const std::function<void()>& meanwhile);
 
+  /// Of each texture of the scene, whether its picture was passed over as a fault, so that it has no texels.
+  std::vector<bool> lost() const;
+
  private:
   struct Wanted {
     uint32_t image;
@@ -53,18 +58,21 @@ class Pictures {
   Content content(uint32_t image) const;
   void check_file(uint32_t image) const;
   std::string place_of(uint32_t image) const;
+  void lose(uint32_t image, const Error& error);
 
   Buffers& buffers_;
   const Document& document_;
   const SceneFolder& folder_;
   const SceneLimits& limits_;
   const ImageDecoder& decode_;
+  Faults& faults_;
   Scene& scene_;
   uint64_t bytes_ = 0;                                                ///< decoded, with levels
   std::vector<Wanted> wanted_;                                        ///< one a texture of the scene
   std::map<std::pair<uint32_t, TextureFormat>, int32_t> textures_;    ///< by image and format
   std::map<std::pair<uint32_t, std::string_view>, uint32_t> firsts_;  ///< images that are asked for, by view and URI
   std::map<uint32_t, uint32_t> first_of_;                             ///< images asked for, to those of `firsts_`
+  std::set<uint32_t> lost_;                                           ///< images
 };
 
 }  // namespace trueshade::gltf

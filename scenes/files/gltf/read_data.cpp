@@ -60,7 +60,21 @@ Packing read_packing(const json::Node& node, uint64_t view_bytes, const Counts& 
   return p;
 }
 
-BufferView read_view(const json::Node& node, const Counts& counts, const Document& document) {
+/// 0: the view has none.
+uint32_t read_stride(const json::Node& stride, bool is_of_indices, uint64_t view_bytes, Document& document) {
+  constexpr int64_t kLeast = 4, kMost = 252;
+  const auto fault = [&](const std::string& reason, const char* remedy) {
+    document.pass(Fault::stride, stride.pointer(), reason, remedy);
+  };
+  const int64_t bytes = stride.integer(0, UINT32_MAX);
+  if (bytes < kLeast || bytes > kMost) fault("the stride is " + std::to_string(bytes), "a stride from 4 to 252");
+  if (bytes % 4 != 0) fault("the stride is no multiple of 4", "a multiple of 4");
+  if (is_of_indices) fault("a view of indices has a stride", "remove it");
+  if (uint64_t(bytes) > view_bytes) fault("the stride is over the view's byteLength", "a longer view");
+  return uint32_t(bytes);
+}
+
+BufferView read_view(const json::Node& node, const Counts& counts, Document& document) {
   constexpr int64_t kVertices = 34962, kIndices = 34963;
   BufferView view;
   view.buffer = index(node.member("buffer"), counts.buffers, "buffer");
@@ -70,12 +84,8 @@ BufferView read_view(const json::Node& node, const Counts& counts, const Documen
   const auto target = node.find("target");
   const int64_t aim = target ? target->integer(0, kLargestCount) : 0;
   if (target && aim != kVertices && aim != kIndices) target->fail("found " + std::to_string(aim), "34962 or 34963");
-  if (const auto stride = node.find("byteStride")) {
-    view.stride = uint32_t(stride->integer(4, 252));
-    if (view.stride % 4 != 0) stride->fail("the stride is no multiple of 4", "a multiple of 4");
-    if (aim == kIndices) stride->fail("a view of indices has a stride", "remove it");
-    if (view.stride > view.bytes) stride->fail("the stride is over the view's byteLength", "a longer view");
-  }
+  if (const auto stride = node.find("byteStride"))
+    view.stride = read_stride(*stride, aim == kIndices, view.bytes, document);
   const auto extensions = extensions_of(node);
   const auto packing = extensions ? extensions->find("EXT_meshopt_compression") : std::nullopt;
   if (packing) view.packing = read_packing(*packing, view.bytes, counts, document);
@@ -85,13 +95,15 @@ BufferView read_view(const json::Node& node, const Counts& counts, const Documen
 /// Checks that `count` elements of `size` bytes from `offset` on, `stride` apart, lie in a view, and on multiples of
 /// the component's size.
 void check_elements(const json::Node& node, const BufferView& view, uint64_t offset, uint64_t count, uint64_t size,
-                    uint64_t stride, uint32_t component_bytes) {
+                    uint64_t stride, uint32_t component_bytes, Document& document) {
   if (offset % component_bytes != 0 || (view.offset + offset) % component_bytes != 0)
-    node.fail(
+    document.pass(
+        Fault::alignment, node.pointer(),
         "the data do not start on a multiple of " + std::to_string(component_bytes) + " bytes, the size of a component",
         "aligned offsets");
   if (stride < size)
-    node.fail(
+    document.pass(
+        Fault::stride, node.pointer(),
         "the view's stride of " + std::to_string(stride) + " is below an element's " + std::to_string(size) + " bytes",
         "a larger stride");
   const bool fits =
@@ -102,7 +114,7 @@ void check_elements(const json::Node& node, const BufferView& view, uint64_t off
               "fewer elements or a longer view");
 }
 
-Sparse read_sparse(const json::Node& node, const Accessor& accessor, const Counts& counts, const Document& document) {
+Sparse read_sparse(const json::Node& node, const Accessor& accessor, const Counts& counts, Document& document) {
   Sparse sparse;
   sparse.count = uint64_t(node.member("count").integer(1, kLargestCount));
   if (sparse.count > accessor.count) node.fail("there are more sparse elements than elements", "at most all");
@@ -120,14 +132,15 @@ Sparse read_sparse(const json::Node& node, const Accessor& accessor, const Count
   if (index_view.stride != 0) indices.fail("a view of sparse data has a stride", "a view without one");
   if (value_view.stride != 0) values.fail("a view of sparse data has a stride", "a view without one");
   const uint32_t index_bytes = bytes_of(sparse.index_type);
-  check_elements(indices, index_view, sparse.indices_offset, sparse.count, index_bytes, index_bytes, index_bytes);
+  check_elements(indices, index_view, sparse.indices_offset, sparse.count, index_bytes, index_bytes, index_bytes,
+                 document);
   const uint64_t size = element_bytes(accessor.type, accessor.shape);
   check_elements(values, value_view, sparse.values_offset, sparse.count, element_end(accessor.type, accessor.shape),
-                 size, bytes_of(accessor.type));
+                 size, bytes_of(accessor.type), document);
   return sparse;
 }
 
-Accessor read_accessor(const json::Node& node, const Counts& counts, const Document& document) {
+Accessor read_accessor(const json::Node& node, const Counts& counts, Document& document) {
   Accessor a;
   const auto offset = node.find("byteOffset");
   a.view = index_or_none(node, "bufferView", counts.views, "buffer view");
@@ -150,9 +163,10 @@ Accessor read_accessor(const json::Node& node, const Counts& counts, const Docum
   const bool is_matrix = a.shape >= Shape::mat2;
   if (a.view != kNone) {
     const BufferView& view = document.views[a.view];
-    if (is_matrix && a.offset % 4 != 0) node.fail("a matrix is not aligned to 4 bytes", "align it");
+    if (is_matrix && a.offset % 4 != 0)
+      document.pass(Fault::alignment, node.pointer(), "a matrix is not aligned to 4 bytes", "align it");
     check_elements(node, view, a.offset, a.count, element_end(a.type, a.shape), view.stride != 0 ? view.stride : size,
-                   bytes_of(a.type));
+                   bytes_of(a.type), document);
   }
   if (const auto sparse = node.find("sparse")) a.sparse = read_sparse(*sparse, a, counts, document);
   return a;

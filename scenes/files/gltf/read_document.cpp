@@ -50,12 +50,23 @@ bool is_read(std::string_view extension) {
   return std::find(std::begin(kExtensions), std::end(kExtensions), extension) != std::end(kExtensions);
 }
 
-void check_required(const json::Node& name) {
+/// Whether what an extension changes is how surfaces look, or nothing that a picture shows: without it the file's
+/// shapes are still there.
+bool leaves_shapes(std::string_view extension) {
+  constexpr std::string_view kParts[] = {"_materials_", "_texture_", "_lights_", "_animation_pointer", "_xmp", "_lod"};
+  return std::any_of(std::begin(kParts), std::end(kParts),
+                     [&](std::string_view part) { return extension.find(part) != std::string_view::npos; });
+}
+
+void check_required(const json::Node& name, Document& document) {
   if (is_read(name.string())) return;
   std::string quoted, all;
   json::append_string(quoted, std::string_view(name.string()).substr(0, 80));
   for (const std::string_view extension : kExtensions) all += (all.empty() ? "" : " ") + std::string(extension);
-  name.fail("the required extension " + quoted + " is not implemented", "export without it; implemented are " + all);
+  const std::string reason = "the required extension " + quoted + " is not implemented",
+                    remedy = "export without it; implemented are " + all;
+  if (!leaves_shapes(name.string())) name.fail(reason, remedy);
+  document.pass(Fault::extension, name.pointer(), reason, remedy);
 }
 
 void read_extensions(const json::Node& root, Document& document) {
@@ -66,7 +77,7 @@ void read_extensions(const json::Node& root, Document& document) {
   });
   for_each(root, "extensionsRequired", [&](const json::Node& name, size_t) {
     if (!required.insert(name.string()).second) name.fail("an extension is named twice", "each once");
-    check_required(name);
+    check_required(name, document);
     if (!used.contains(name.string())) name.fail("a required extension is not among extensionsUsed", "add it there");
   });
   for (SceneExtension& extension : document.extensions) extension.required = required.contains(extension.name);
@@ -97,6 +108,10 @@ void Document::fail(const std::string& pointer, const std::string& reason, const
   throw Error(ErrorKind::bad_input, file + ": " + pointer, reason, remedy);
 }
 
+void Document::pass(Fault fault, const std::string& pointer, const std::string& reason, const std::string& remedy) {
+  faults.pass(fault, file + ": " + pointer, reason, remedy);
+}
+
 Document read_document(const Container& container, const std::string& file, const SceneLimits& limits) {
   if (container.json.size() > limits.json_bytes)
     throw Error(ErrorKind::limit, file, std::to_string(container.json.size()) + " bytes of JSON are over the limit",
@@ -106,6 +121,7 @@ Document read_document(const Container& container, const std::string& file, cons
   Document document;
   document.file = file;
   document.is_glb = container.is_glb;
+  document.faults = Faults(limits.leniency);
   check_asset(root);
   read_extensions(root, document);
   const Counts counts = counts_of(root);

@@ -71,7 +71,7 @@ void assign(const json::Node& node, const Allowed& row, uint32_t set, uint32_t a
 }
 
 Attributes read_attributes(const json::Node& node, std::span<const Allowed> rows, const Counts& counts,
-                           const Document& document, std::optional<uint64_t>& vertices) {
+                           Document& document, std::optional<uint64_t>& vertices) {
   Attributes out;
   node.find("");  // fails unless it is an object
   const json::Members& members = *std::get<std::unique_ptr<json::Members>>(node.value().is);
@@ -87,7 +87,11 @@ Attributes read_attributes(const json::Node& node, std::span<const Allowed> rows
     if (name.starts_with('_')) continue;  // an application's own
     uint32_t set = 0;
     const Allowed* row = row_of(name, rows, set);
-    if (!row) member.fail("this attribute is not in glTF", "a name of glTF, or one that starts with '_'");
+    if (!row) {
+      document.pass(Fault::value, member.pointer(), "this attribute is not in glTF",
+                    "a name of glTF, or one that starts with '_'");
+      continue;
+    }
     if (!is_allowed(a, *row, document.quantized))
       member.fail("the accessor's type does not go with the attribute", "a type of glTF 2.0, 3.7.2.1");
     if (a.count >= kNone) member.fail(std::to_string(a.count) + " vertices", "below 2^32 - 1");
@@ -102,11 +106,11 @@ Attributes read_attributes(const json::Node& node, std::span<const Allowed> rows
   return out;
 }
 
-void check_indices(const json::Node& node, const Accessor& a, const Document& document) {
+void check_indices(const json::Node& node, const Accessor& a, Document& document) {
   if (a.shape != Shape::scalar || (a.type != uint8 && a.type != uint16 && a.type != uint32) || a.normalized)
     node.fail("the accessor's type does not go with indices", "SCALAR of 5121, 5123 or 5125");
   if (a.view != kNone && document.views[a.view].stride != 0)
-    node.fail("the view of indices has a stride", "a view without one");
+    document.pass(Fault::stride, node.pointer(), "the view of indices has a stride", "a view without one");
 }
 
 /// A target's attributes are among the primitive's.
@@ -120,7 +124,7 @@ void check_target(const json::Node& node, const Attributes& target, const Attrib
     node.fail("a target moves an attribute that the primitive does not have", "attributes of the primitive");
 }
 
-Primitive read_primitive(const json::Node& node, const Counts& counts, const Document& document) {
+Primitive read_primitive(const json::Node& node, const Counts& counts, Document& document) {
   Primitive out;
   std::optional<uint64_t> vertices;
   const json::Node attributes = node.member("attributes");
@@ -140,14 +144,15 @@ Primitive read_primitive(const json::Node& node, const Counts& counts, const Doc
 }
 
 /// Each texture of a primitive's material finds its texture coordinates.
-void check_uv_sets(const json::Node& node, const Primitive& primitive, const Document& document) {
+void check_uv_sets(const json::Node& node, const Primitive& primitive, Document& document) {
   if (primitive.material == kNone) return;
   const MaterialSource& m = document.materials[primitive.material];
   for (const TextureInfo* map :
        {&m.base_color_map, &m.metallic_roughness_map, &m.normal_map, &m.occlusion_map, &m.emission_map}) {
     if (map->texture == kNone || primitive.attributes.uv_set(map->uv.set) != kNone) continue;
-    node.fail("the material reads TEXCOORD_" + std::to_string(map->uv.set) + ", which is not there",
-              "texture coordinates for the material's textures");
+    document.pass(Fault::coordinates, node.pointer(),
+                  "the material reads TEXCOORD_" + std::to_string(map->uv.set) + ", which is not there",
+                  "texture coordinates for the material's textures");
   }
 }
 

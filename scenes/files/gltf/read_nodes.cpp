@@ -209,12 +209,17 @@ void read_scenes(const json::Node& root, const Counts& counts, Document& documen
   for_each(root, "scenes", [&](const json::Node& node, size_t scene) {
     std::vector<uint32_t>& roots = document.scenes.emplace_back();
     for_each(node, "nodes", [&](const json::Node& element, size_t) {
-      roots.push_back(index(element, counts.nodes, "node"));
-      if (document.nodes[roots.back()].parent != kNone)
-        element.fail("node " + std::to_string(roots.back()) + " is no root: it has a parent", "root nodes");
-      if (named[roots.back()] == scene)
-        element.fail("node " + std::to_string(roots.back()) + " is named twice", "each root once");
-      named[roots.back()] = scene;
+      const uint32_t root = index(element, counts.nodes, "node");
+      if (document.nodes[root].parent != kNone)
+        document.pass(Fault::root, element.pointer(), "node " + std::to_string(root) + " is no root: it has a parent",
+                      "root nodes");
+      if (named[root] == scene) {
+        document.pass(Fault::root, element.pointer(), "node " + std::to_string(root) + " is named twice",
+                      "each root once");
+        return;
+      }
+      named[root] = scene;
+      roots.push_back(root);
     });
   });
   document.scene = index_or_none(root, "scene", counts.scenes, "scene");

@@ -18,9 +18,10 @@ SceneMaker::SceneMaker(Buffers& buffers, const SceneFolder& folder, const SceneL
     : document_(buffers.document()),
       limits_(limits),
       asked_(parts),
+      faults_(document_.faults),
       accessors_(buffers, limits),
-      pictures_(buffers, folder, limits, decode, scene_),
-      materials_(document_, pictures_, scene_),
+      pictures_(buffers, folder, limits, decode, faults_, scene_),
+      materials_(document_, pictures_, faults_, scene_),
       hierarchy_(hierarchy_of(document_, limits)) {}
 
 Scene SceneMaker::make() {
@@ -31,6 +32,7 @@ Scene SceneMaker::make() {
   choose_parts();
   prepare();
   pictures_.decode_all([this] { read_geometry_and_nodes(); });
+  lose_textures(scene_, pictures_.lost());
   bake_uv(scene_, materials_.uv_sources(), [this](uint64_t bytes) { accessors_.take(bytes, "/meshes"); });
   set_time(scene_, 0.0);
   scene_.camera_of_ours = !timeline.node_camera;
@@ -38,6 +40,7 @@ Scene SceneMaker::make() {
   if (!moves()) timeline = Timeline{};
   if (scene_.lights.empty()) add_lights_of_ours(scene_);
   add_notes();
+  faults_.tell(scene_);
   return std::move(scene_);
 }
 

@@ -60,6 +60,7 @@ class SceneMaker {
   const SceneLimits& limits_;
   const SceneParts& asked_;
   Scene scene_;
+  Faults faults_;
   Accessors accessors_;
   Pictures pictures_;
   Materials materials_;

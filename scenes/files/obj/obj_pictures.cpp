@@ -32,11 +32,6 @@ void attempt(const Job& job) {
   }
 }
 
-/// Key of what is made of a picture of a library's folder.
-std::string key_of(const MtlDocument& document, const MapSource& map) {
-  return path_beside(document.file, map.file, place_of(document, map));
-}
-
 void turn_upside_down(Image& image) {
   const size_t row = image.row_bytes();
   for (size_t y = 0; y < size_t(image.height) / 2; ++y)
@@ -88,7 +83,7 @@ uint8_t code_at(const Image& image, int channel, int x, int y, int width, int he
 
 }  // namespace
 
-std::string path_beside(const std::string& from, const std::string& name, const std::string& where) {
+std::string path_beside(const std::string& from, const std::string& name, const std::string& where, NamedPaths paths) {
   std::string uri;
   for (const char c : name) {
     if (c == '%')
@@ -97,12 +92,18 @@ std::string path_beside(const std::string& from, const std::string& name, const 
       uri += c == '\\' ? '/' : c;
   }
   const std::string first_step = uri.substr(0, uri.find('/'));
-  if (first_step != "..") relative_path_from_uri(first_step.empty() ? uri : first_step, where);  // it may be absolute
+  if (first_step != "..") path_from_uri(first_step.empty() ? uri : first_step, where, paths);
+  if (uri.starts_with('/')) return path_from_uri(uri, where, paths);
   const size_t slash = from.rfind('/');
   std::string folder = slash == std::string::npos ? "" : from.substr(0, slash + 1);
   for (size_t at = folder.find('%'); at != std::string::npos; at = folder.find('%', at + 3))
     folder.insert(at + 1, "25");
-  return relative_path_from_uri(folder + uri, where);
+  return path_from_uri(folder + uri, where, paths);
+}
+
+/// Of what is made of a picture.
+std::string ObjPictures::key_of(const MtlDocument& document, const MapSource& map) const {
+  return path_beside(document.file, map.file, place_of(document, map), limits_.named_paths);
 }
 
 struct ObjPictures::Task {
@@ -145,7 +146,7 @@ void ObjPictures::decode_some(std::span<Task> tasks, uint64_t share, const std::
 }
 
 Image ObjPictures::decoded(const MtlDocument& document, const MapSource& map) {
-  const std::string where = place_of(document, map), path = path_beside(document.file, map.file, where);
+  const std::string where = place_of(document, map), path = key_of(document, map);
   if (!decode_) throw Error(ErrorKind::bad_input, where, "this program reads no image files", "no pictures");
   Image image;
   if (const auto found = ahead_.find(path); found != ahead_.end()) {

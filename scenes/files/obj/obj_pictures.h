@@ -5,6 +5,7 @@
 #include <string>
 #include <tuple>
 
+#include "scenes/files/content/faults.h"
 #include "scenes/files/content/scene_files.h"
 #include "scenes/files/obj/mtl_document.h"
 #include "scenes/scene.h"
@@ -14,10 +15,10 @@ namespace trueshade::obj {
 /// Content of a file that an OBJ or MTL file names, below the OBJ file's folder; `where` stands in errors.
 using FileReader = std::function<Bytes(const std::string& relative, uint64_t limit, const std::string& where)>;
 
-/// The path that a name in `from`, itself relative to the scene's folder, stands for: below the folder of `from`. Names
+/// The path that a name in `from`, itself a path from the scene's folder, stands for: from the folder of `from`. Names
 /// are no URIs: '%' is itself, and a backslash separates folders, as in files of Windows programs, whose names of files
-/// hold none. Error(bad_input) as relative_path_from_uri() has them.
-std::string path_beside(const std::string& from, const std::string& name, const std::string& where);
+/// hold none. Error(bad_input) as path_from_uri() has them.
+std::string path_beside(const std::string& from, const std::string& name, const std::string& where, NamedPaths paths);
 
 /// A picture that a material will ask for.
 struct WantedPicture {
@@ -29,8 +30,21 @@ struct WantedPicture {
 /// bottom of its picture, where v = 0. Borrows all it is given.
 class ObjPictures {
  public:
-  ObjPictures(const FileReader& read, const ImageDecoder& decode, const SceneLimits& limits, Scene& scene)
-      : read_(read), decode_(decode), limits_(limits), scene_(scene) {}
+  ObjPictures(const FileReader& read, const ImageDecoder& decode, const SceneLimits& limits, Faults& faults,
+              Scene& scene)
+      : read_(read), decode_(decode), limits_(limits), faults_(faults), scene_(scene) {}
+
+  /// The texture that one of the functions below makes, called by `make`; below 0 where the picture that `map` names,
+  /// or one beside it, cannot be read, and this is passed over.
+  template <class Make>
+  int32_t unless_lost(const MapSource& map, const Make& make) {
+    try {
+      return make();
+    } catch (const Error& error) {
+      faults_.pass(Fault::picture, map.file, error);
+      return -1;
+    }
+  }
 
   /// Reads pictures and decodes them by all cores, of which one does `meanwhile`, for the functions below. What fails
   /// is left to them to try again, so that the error is that of the first picture in the order of use, however many
@@ -59,6 +73,7 @@ class ObjPictures {
  private:
   struct Task;
 
+  std::string key_of(const MtlDocument& document, const MapSource& map) const;
   void decode_some(std::span<Task> tasks, uint64_t share, const std::function<void()>& meanwhile) const;
   Image decoded(const MtlDocument& document, const MapSource& map);
   int32_t add(Texture texture, const std::string& where);
@@ -68,6 +83,7 @@ class ObjPictures {
   const FileReader& read_;
   const ImageDecoder& decode_;
   const SceneLimits& limits_;
+  Faults& faults_;
   Scene& scene_;
   uint64_t bytes_ = 0;  ///< of all textures, with their levels
   std::map<std::string, int32_t> known_;

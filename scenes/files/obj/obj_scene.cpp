@@ -23,19 +23,21 @@ constexpr glm::vec4 kGrey{0.7f, 0.7f, 0.7f, 1.0f};
 class Libraries {
  public:
   Libraries(const ObjDocument& document, const SceneLimits& limits, const ImageDecoder& decode, const FileReader& read,
-            Scene& scene)
-      : document_(document), scene_(scene), pictures_(read, decode, limits, scene) {
+            Faults& faults, Scene& scene)
+      : document_(document), faults_(faults), scene_(scene), pictures_(read, decode, limits, faults, scene) {
     uint64_t left = limits.file_bytes;
     for (const ObjDocument::Library& library : document.libraries) {
-      const std::string where = document.file + ": line " + std::to_string(library.line),
-                        path = path_beside("", library.name, where);
-      const Bytes text = read(path, left, where);
-      left -= std::min<uint64_t>(left, text.size());
-      documents_.push_back(std::make_unique<MtlDocument>(read_mtl(text, path)));
-      for (const MtlMaterial& material : documents_.back()->materials)
-        if (!defined_.emplace(material.name, Defined{documents_.back().get(), &material}).second)
-          throw Error(ErrorKind::bad_input, path + ": line " + std::to_string(material.line),
-                      "a material of this name exists in another library", "another name");
+      const std::string where = document.file + ": line " + std::to_string(library.line);
+      try {
+        const std::string path = path_beside("", library.name, where, limits.named_paths);
+        const Bytes text = read(path, left, where);
+        left -= std::min<uint64_t>(left, text.size());
+        documents_.push_back(std::make_unique<MtlDocument>(read_mtl(text, path, faults)));
+      } catch (const Error& error) {
+        faults.pass(Fault::library, library.name, error);
+        continue;
+      }
+      define(*documents_.back());
     }
     drawn_.resize(document.material_names.size() + 1, -1);
   }
@@ -101,6 +103,13 @@ class Libraries {
     const MtlMaterial* material;
   };
 
+  void define(const MtlDocument& library) {
+    for (const MtlMaterial& material : library.materials)
+      if (!defined_.emplace(material.name, Defined{&library, &material}).second)
+        faults_.pass(Fault::statement, library.file + ": line " + std::to_string(material.line),
+                     "a material of this name exists in another library", "another name");
+  }
+
   Material made(int32_t index) {
     if (index < 0) return {"grey", kGrey};
     const std::string& name = document_.material_names[size_t(index)];
@@ -114,6 +123,7 @@ class Libraries {
   }
 
   const ObjDocument& document_;
+  Faults& faults_;
   Scene& scene_;
   ObjPictures pictures_;
   std::vector<std::unique_ptr<MtlDocument>> documents_;
@@ -135,8 +145,9 @@ Scene scene_from_obj(std::span<const uint8_t> file, const std::string& path, con
   const FpScope fp;
   Scene scene;
   scene.spec = path;
-  obj::ObjDocument document = obj::read_obj(file, path, limits);
-  obj::Libraries libraries(document, limits, decode, read, scene);
+  Faults faults(limits.leniency);
+  obj::ObjDocument document = obj::read_obj(file, path, limits, faults);
+  obj::Libraries libraries(document, limits, decode, read, faults, scene);
   std::vector<obj::ObjPart> parts;
   libraries.decode_pictures([&] { parts = obj::parts_of(document, missing_normals, limits); });
   if (parts.empty())
@@ -159,12 +170,13 @@ Scene scene_from_obj(std::span<const uint8_t> file, const std::string& path, con
   libraries.add_note(document.free_form, "curve or surface is", "curves and surfaces are",
                      " not drawn, because only faces are drawn");
   libraries.add_notes();
+  faults.tell(scene);
   return scene;
 }
 
 Scene scene_from_obj(std::span<const uint8_t> file, const std::string& path, const SceneLimits& limits,
                      const ImageDecoder& decode, MissingNormals missing_normals) {
-  const SceneFolder folder(path);
+  const SceneFolder folder(path, limits.named_paths);
   const obj::FileReader read = [&](const std::string& relative, uint64_t limit, const std::string& where) {
     return folder.read(relative, limit, where);
   };

@@ -21,22 +21,31 @@ std::string in_small_letters(std::string_view word) {
 
 class MtlReader {
  public:
-  MtlReader(std::span<const uint8_t> file, const std::string& name) : text_(file, name) { document_.file = name; }
+  MtlReader(std::span<const uint8_t> file, const std::string& name, Faults& faults)
+      : text_(file, name), faults_(faults) {
+    document_.file = name;
+  }
 
   MtlDocument read() {
-    while (text_.next()) {
-      const std::string keyword = in_small_letters(text_.keyword());
-      if (keyword == "newmtl")
-        begin_material();
-      else if (document_.materials.empty())
-        text_.fail("'" + shown_word(text_.keyword()) + "' stands before the first newmtl", "newmtl and a name first");
-      else if (!read_value(keyword, document_.materials.back()) && !read_map(keyword, document_.materials.back()))
-        ++document_.passed_over[shown_word(text_.keyword())];
-    }
+    while (text_.next()) try {
+        read_statement();
+      } catch (const Error& error) {
+        faults_.pass(Fault::statement, document_.file + std::to_string(text_.line()), error);
+      }
     return std::move(document_);
   }
 
  private:
+  void read_statement() {
+    const std::string keyword = in_small_letters(text_.keyword());
+    if (keyword == "newmtl")
+      begin_material();
+    else if (document_.materials.empty())
+      text_.fail("'" + shown_word(text_.keyword()) + "' stands before the first newmtl", "newmtl and a name first");
+    else if (!read_value(keyword, document_.materials.back()) && !read_map(keyword, document_.materials.back()))
+      ++document_.passed_over[shown_word(text_.keyword())];
+  }
+
   void begin_material() {
     MtlMaterial material;
     material.name = text_.rest();
@@ -180,6 +189,7 @@ class MtlReader {
   }
 
   Statements text_;
+  Faults& faults_;
   MtlDocument document_;
   std::set<std::string> names_;
   std::optional<uint32_t> has_d_;  ///< line of the newmtl of the last material with a statement d
@@ -187,6 +197,8 @@ class MtlReader {
 
 }  // namespace
 
-MtlDocument read_mtl(std::span<const uint8_t> file, const std::string& name) { return MtlReader(file, name).read(); }
+MtlDocument read_mtl(std::span<const uint8_t> file, const std::string& name, Faults& faults) {
+  return MtlReader(file, name, faults).read();
+}
 
 }  // namespace trueshade::obj

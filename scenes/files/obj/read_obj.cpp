@@ -30,19 +30,36 @@ bool names_library(std::string_view name) {
 
 class ObjReader {
  public:
-  ObjReader(std::span<const uint8_t> file, const std::string& name, const SceneLimits& limits)
-      : text_(file, name), budget_(limits, name) {
+  ObjReader(std::span<const uint8_t> file, const std::string& name, const SceneLimits& limits, Faults& faults)
+      : text_(file, name), budget_(limits, name), faults_(faults) {
     document_.file = name;
   }
 
   ObjDocument read() {
-    while (text_.next()) read_statement();
+    while (text_.next()) read_or_pass_statement();
     check_indices();
     if (!document_.colors.empty()) document_.colors.resize(document_.position_count() * 4, 1.0f);
     return std::move(document_);
   }
 
  private:
+  /// Of a statement that is passed over no corner stays, and the numbers of a vertex that are not there are 0, so that
+  /// those behind it keep their indices.
+  void read_or_pass_statement() {
+    const size_t positions = document_.positions.size(), uvs = document_.uvs.size(), normals = document_.normals.size(),
+                 corners = document_.corners.size();
+    const std::string_view keyword = text_.keyword();
+    try {
+      read_statement();
+    } catch (const Error& error) {
+      faults_.pass(Fault::statement, std::to_string(text_.line()), error);
+      document_.corners.resize(corners);
+      if (keyword == "v") document_.positions.resize(positions + 3, 0.0f);
+      if (keyword == "vt") document_.uvs.resize(uvs + 2, 0.0f);
+      if (keyword == "vn") document_.normals.resize(normals + 3, 0.0f);
+    }
+  }
+
   void read_statement() {
     const std::string_view keyword = text_.keyword();
     if (keyword == "v") return read_position();
@@ -231,6 +248,7 @@ class ObjReader {
 
   Statements text_;
   GeometryBudget budget_;
+  Faults& faults_;
   ObjDocument document_;
   Run state_;
   std::map<std::string, int32_t> materials_, objects_, libraries_;
@@ -238,8 +256,9 @@ class ObjReader {
 
 }  // namespace
 
-ObjDocument read_obj(std::span<const uint8_t> file, const std::string& name, const SceneLimits& limits) {
-  return ObjReader(file, name, limits).read();
+ObjDocument read_obj(std::span<const uint8_t> file, const std::string& name, const SceneLimits& limits,
+                     Faults& faults) {
+  return ObjReader(file, name, limits, faults).read();
 }
 
 }  // namespace trueshade::obj

@@ -181,7 +181,7 @@ TEST_CASE("accessors lie in their views and views in their buffers, in 64 bits")
   CHECK_STARTS_WITH(refused(view + R"(, "byteStride": 6)", floats + R"("count": 1)"),
                     ": /bufferViews/0/byteStride: the stride is no multiple of 4");
   CHECK_STARTS_WITH(refused(view + R"(, "byteStride": 256)", floats + R"("count": 1)"),
-                    ": /bufferViews/0/byteStride: found 256");
+                    ": /bufferViews/0/byteStride: the stride is 256");
   CHECK_STARTS_WITH(refused(view + R"(, "byteStride": 40)", floats + R"("count": 1)"),
                     ": /bufferViews/0/byteStride: the stride is over");
   CHECK_STARTS_WITH(refused(view + R"(, "byteStride": 12, "target": 34963)", floats + R"("count": 1)"),

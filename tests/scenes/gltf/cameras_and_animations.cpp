@@ -89,12 +89,13 @@ TEST_CASE("a camera or an animation that a file has not is refused with those th
     });
   };
   CHECK_THAT(refused("3", nullptr),
-             Catch::StartsWith("--camera: ") && Catch::EndsWith("file.gltf has no camera '3' (it has, by number: "
-                                                                "0 Side Tripod, 1 Rig, 2 Main Crane)"));
+             Catch::StartsWith("--camera: ") &&
+                 Catch::EndsWith("file.gltf has no camera '3' (it has, by number: "
+                                 "0 'Side' of node 'Tripod', 1 'Rig', 2 'Main' of node 'Crane')"));
   CHECK_THAT(refused("Mian", nullptr), Catch::Contains("did you mean Main? it has"));
   CHECK_THAT(refused("", nullptr), Catch::Contains("no camera ''"));
-  CHECK_THAT(refused(nullptr, "Run"),
-             Catch::StartsWith("--animation: ") && Catch::EndsWith("(it has, by number: 0 Walk, 1 Grow, 2, or all)"));
+  CHECK_THAT(refused(nullptr, "Run"), Catch::StartsWith("--animation: ") &&
+                                          Catch::EndsWith("(it has, by number: 0 'Walk', 1 'Grow', 2, or all)"));
   for (const char* other : {"builtin:red", "file.ply"}) {
     loaded.folder().write("file.ply",
                           "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"

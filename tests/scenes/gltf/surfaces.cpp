@@ -223,5 +223,55 @@ TEST_CASE("what does not go together in a material is refused") {
   CHECK_STARTS_WITH(texture(R"("source": 0)"), ": /textures/0/source: there is no image 0");
 }
 
+/// What Khronos' extensions of materials say, with a picture where they have one; but for those that are read.
+constexpr std::pair<const char*, const char*> kPassedOverMaterials[] = {
+    {"KHR_materials_transmission", R"("transmissionFactor": 1, "transmissionTexture": {"index": 0})"},
+    {"KHR_materials_volume", R"("thicknessFactor": 1, "attenuationColor": [1, 0, 0], "attenuationDistance": 0.5)"},
+    {"KHR_materials_dispersion", R"("dispersion": 0.1)"},
+    {"KHR_materials_clearcoat", R"("clearcoatFactor": 1, "clearcoatNormalTexture": {"index": 0, "scale": 2})"},
+    {"KHR_materials_sheen", R"("sheenColorFactor": [1, 1, 1], "sheenColorTexture": {"index": 0})"},
+    {"KHR_materials_iridescence", R"("iridescenceFactor": 1, "iridescenceThicknessTexture": {"index": 0})"},
+    {"KHR_materials_anisotropy", R"("anisotropyStrength": 0.5, "anisotropyTexture": {"index": 0})"},
+    {"KHR_materials_specular", R"("specularFactor": 0, "specularTexture": {"index": 0})"},
+    {"KHR_materials_ior", R"("ior": 2.4)"},
+    {"KHR_materials_diffuse_transmission", R"("diffuseTransmissionFactor": 0.5)"},
+    {"KHR_materials_pbrSpecularGlossiness", R"("diffuseTexture": {"index": 0})"}};
+
+TEST_CASE("extensions of materials that are not read leave the base material, and a note names them") {
+  const std::string base = R"("pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 0.125, 1]})",
+                    image = one_image(kGoodImage);
+  const std::string plain = scene_hash(load_gltf(textured(base, image)));
+  std::string all, used;
+  for (const auto& [name, members] : kPassedOverMaterials) {
+    INFO(name);
+    const std::string said = std::string("\"") + name + "\": {" + members + '}';
+    const Scene scene = load_gltf(
+        textured(base + R"(, "extensions": {)" + said + '}', image + R"(, "extensionsUsed": [")" + name + "\"]"));
+    CHECK(scene_hash(scene) == plain);
+    CHECK(scene.notes == std::vector<std::string>{
+                             std::string("1 extension is not read, and the file is drawn as if it had none: ") + name});
+    all += (all.empty() ? "" : ", ") + said;
+    used += std::string(used.empty() ? "\"" : ", \"") + name + '"';
+  }
+  CHECK(scene_hash(load_gltf(textured(base + R"(, "extensions": {)" + all + '}',
+                                      image + R"(, "extensionsUsed": [)" + used + ']'))) == plain);
+}
+
+TEST_CASE("variants of materials leave the material that the primitive names itself") {
+  Asset asset;
+  asset.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  const std::string lists = R"("materials": [{"name": "own"}, {"name": "other"}])";
+  const auto with = [&](const std::string& primitive, const std::string& more) {
+    return load_gltf(
+        asset.gltf(one_primitive(R"("attributes": {"POSITION": 0}, "material": 0)" + primitive, "", lists + more)));
+  };
+  const Scene scene =
+      with(R"(, "extensions": {"KHR_materials_variants": {"mappings": [{"material": 1, "variants": [0]}]}})",
+           R"(, "extensionsUsed": ["KHR_materials_variants"],
+          "extensions": {"KHR_materials_variants": {"variants": [{"name": "red"}]}})");
+  CHECK(scene_hash(scene) == scene_hash(with("", "")));
+  CHECK(scene.materials.at(0).name == "own");
+}
+
 }  // namespace
 }  // namespace trueshade

@@ -20,7 +20,7 @@ class ExtrasSceneMaker {
         buffers_(buffers),
         limits_(limits),
         accessors_(buffers, limits),
-        pictures_(buffers, folder, limits, decode, decoded_) {}
+        pictures_(buffers, folder, limits, decode, faults_, decoded_) {}
 
   Scene make() {
     scene_.spec = document_.file;
@@ -131,6 +131,7 @@ class ExtrasSceneMaker {
   Buffers& buffers_;
   const SceneLimits& limits_;
   Accessors accessors_;
+  Faults faults_{Leniency::refused};  // what this program has written holds none
   Pictures pictures_;
   uint64_t stored_bytes_ = 0;
 };
