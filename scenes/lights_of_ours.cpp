@@ -167,10 +167,11 @@ std::array<LampPlace, kLightsOfOurs - 1> lamps_for(const Scene& scene, const glm
   const glm::dvec3 right(1.0, 0.0, 0.0), front = cross(right, vertical);
   std::array<LampPlace, kLightsOfOurs - 1> places;
   for (size_t i = 0; i < places.size(); ++i) {
-    const glm::dvec3 from = kLamps[i].from;
-    const double x = dot(from, right), z = dot(from, front);
-    places[i] = place_of(
-        bounds, right * (x * turn.y + z * turn.x) + vertical * dot(from, vertical) + front * (z * turn.y - x * turn.x));
+    const glm::dvec3 made = kLamps[i].from;
+    const double x = dot(made, right), z = dot(made, front);
+    const glm::dvec3 from =
+        right * (x * turn.y + z * turn.x) + vertical * dot(made, vertical) + front * (z * turn.y - x * turn.x);
+    places[i] = {place_of(bounds, from), glm::vec3(-unit(from))};
   }
   return places;
 }
