@@ -403,7 +403,7 @@ TEST_CASE("limits of light programs have options that their errors name, and tha
   CHECK(with({"--max-loop-trips", "3000"}).exit_code == 0);
   check_refused(with({"--max-loop-trips", "3000", "--max-program-nodes", "5000"}), 4, "--max-program-nodes");
   for (const char* const command : {"view", "explain", "shade", "glsl"})
-    CHECK_THAT(run_command({command, "--help"}).out, Catch::Contains("--max-loop-trips"));
+    CHECK_THAT(run_command({command, "--help-limits"}).out, Catch::Contains("--max-loop-trips"));
 }
 
 TEST_CASE("every limit has an option, which is checked, and which its error names") {
@@ -415,7 +415,7 @@ TEST_CASE("every limit has an option, which is checked, and which its error name
     CHECK(limit_from_text(limit, "7") == 7);
     if (bytes) CHECK(limit_from_text(limit, "3G") == uint64_t(3) << 30);
     for (const char* command : {"render", "info", "validate", "bench"})
-      CHECK(run_command({command, "--help"}).out.find(limit.name) != std::string::npos);
+      CHECK(run_command({command, "--help-limits"}).out.find(limit.name) != std::string::npos);
   }
   const auto refused = [&](const std::string& scene, const std::string& option, const std::string& value) {
     check_refused(run_command({"info", scene, option, value}, folder.path("")), 4, option);
