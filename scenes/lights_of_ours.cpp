@@ -95,8 +95,15 @@ double gain_of(const Scene& scene) {
 
 double photometric_intensity(double distance2) { return std::min(kPhotometricShare * distance2, kMostIntensity); }
 
-/// So near that no float holds how its light falls off: it shines as from far away, as brightly as the lamp on the
-/// centre of the bounds.
+double lamp_distance(const Bounds& bounds) { return kLightDistance * bounds.radius; }
+
+/// Whether lamps are so near that no float holds how their light falls off.
+bool are_too_near(const Bounds& bounds) {
+  const double distance = lamp_distance(bounds);
+  return !(kFalloffThere / (distance * distance) <= kMostAttenuation);
+}
+
+/// In place of one that is too near: it shines as from far away, as brightly as the lamp on the centre of the bounds.
 Light distant_lamp(const Scene& scene, const glm::dvec3& from, const glm::dvec3& color) {
   Light light;
   light.type = LightType::directional;
@@ -106,9 +113,9 @@ Light distant_lamp(const Scene& scene, const glm::dvec3& from, const glm::dvec3&
 }
 
 void add_lamp(Scene& scene, const Bounds& bounds, const glm::dvec3& from, const glm::dvec3& color) {
-  const double distance = kLightDistance * bounds.radius, distance2 = distance * distance;
+  const double distance = lamp_distance(bounds), distance2 = distance * distance;
   const double intensity = scene.photometric ? photometric_intensity(distance2) : 1.0;
-  if (!(kFalloffThere / distance2 <= kMostAttenuation)) {
+  if (are_too_near(bounds)) {
     scene.lights.push_back(distant_lamp(scene, from, color));
     return;
   }
@@ -157,7 +164,7 @@ void add_ground(Scene& scene) {
   const double radius = kGroundRadius * bounds.radius, height = ground_height(bounds);
   const bool fits = std::fabs(bounds.centre.x) + radius < kMostGround &&
                     std::fabs(bounds.centre.z) + radius < kMostGround && std::fabs(height) < kMostGround;
-  if (scene.triangle_count() == 0 || !fits) return;
+  if (scene.triangle_count() == 0 || !fits || are_too_near(bounds)) return;
   Mesh disc;
   disc.name = kGround;
   const glm::dvec3 up(0.0, 1.0, 0.0), centre(bounds.centre.x, height, bounds.centre.z);
