@@ -140,6 +140,14 @@ std::vector<IgnoredField> ignored_by(const Scene& scene, const Pipeline& pipelin
   return ignored_fields(scene, stated);
 }
 
+/// Whether a field is gloss of a model that is drawn as models are where no preset is named. docs/obj.md says of all of
+/// them that it is ignored.
+bool is_usual(const IgnoredField& field, const Scene& scene, const Pipeline& pipeline) {
+  constexpr std::string_view kGloss[] = {"specular_color", "shininess", "specular_map"};
+  return scene.is_model && pipeline.preset == default_pipeline(scene).preset && field.of == "material" &&
+         std::find(std::begin(kGloss), std::end(kGloss), field.field) != std::end(kGloss);
+}
+
 /// Where a build without light programs draws a photometric scene.
 std::string stand_in_line(const Scene& scene, const Pipeline& pipeline) {
   if (draws_light_programs() || !scene.photometric || pipeline.preset != default_pipeline(scene).preset) return {};
@@ -160,7 +168,8 @@ std::string no_program_line(const Pipeline& pipeline) {
 Notes notes_of(const Scene& scene, const Pipeline& pipeline) {
   const bool by_program = pipeline.light_program.used();
   Notes notes{ignored_by(scene, pipeline), scene.notes};
-  for (const IgnoredField& field : notes.ignored) notes.lines.push_back(line_of(scene, field));
+  for (const IgnoredField& field : notes.ignored)
+    if (!is_usual(field, scene, pipeline)) notes.lines.push_back(line_of(scene, field));
   if (const uint64_t materials = implausible_reflectances(scene); materials > 0)
     notes.lines.push_back(reflectance_line(materials));
   const bool boxes = shows_boxes(pipeline.view);

@@ -10,7 +10,7 @@ namespace trueshade {
 /// What a picture does not show although its maker may expect it. Notes change no exit code and no pixel.
 struct Notes {
   std::vector<IgnoredField> ignored;
-  std::vector<std::string> lines;  ///< every note as one line of full sentences, those of `ignored` first
+  std::vector<std::string> lines;  ///< every note as one line of full sentences
 };
 
 /// Notes that scene and pipeline call for before anything is drawn.

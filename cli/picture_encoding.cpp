@@ -17,13 +17,14 @@ ImageFileOptions file_options(const RenderOptions& options, const Pipeline& pipe
   return file;
 }
 
-std::string encoding_note(const RenderOptions& options, const Pipeline& pipeline) {
+std::string encoding_note(const RenderOptions& options, const Pipeline& pipeline, const Scene& scene) {
   const Format format = pipeline.post.active() ? pipeline.post.output : pipeline.target;
   const bool linear = info(format).number_class == NumberClass::floating &&
                       file_options(options, pipeline).values == PictureValues::of_target;
   const bool png = std::any_of(options.outputs.begin(), options.outputs.end(),
                                [](const std::string& path) { return has_ending(path, ".png"); });
-  if (!linear || !png || options.encode) return {};
+  const bool is_usual = scene.is_model && !options.target && !options.preset && !options.pipeline_file;
+  if (!linear || !png || options.encode || is_usual) return {};
   return "The target " + std::string(info(format).name) +
          " holds linear light, and the PNG is sRGB-encoded as screens take it (--encode srgb says so, --encode raw "
          "stores the values as they are)";

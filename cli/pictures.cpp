@@ -99,7 +99,8 @@ RenderedFrame frame_at(const RenderOptions& options, const CameraChanges& camera
   // Not of a view, which shows planes, and not where there is no scene by that name to explain.
   if (!options.scene.empty() && pipeline.view == ImageView::lit)
     result.explain_command = explain_command(options, camera, pipeline, time, {});
-  if (std::string note = encoding_note(options, pipeline); !note.empty()) result.notes.lines.push_back(std::move(note));
+  if (std::string note = encoding_note(options, pipeline, scene); !note.empty())
+    result.notes.lines.push_back(std::move(note));
   return result;
 }
 

@@ -141,12 +141,17 @@ void check_outputs(const ValidationOptions& options) {
 
 }  // namespace
 
-/// The metadata of a capture's files that are pictures.
+/// The metadata of a capture's files that may be pictures of ours: those have one part.
 static std::vector<std::pair<std::string, Metadata>> metadata_of(const CaptureFiles& files) {
   std::vector<std::pair<std::string, Metadata>> all;
-  for (const ChannelFile& file : files.files)
-    if (has_ending(file.path, ".exr") || has_ending(file.path, ".png"))
+  for (const ChannelFile& file : files.files) {
+    if (!has_ending(file.path, ".exr") && !has_ending(file.path, ".png")) continue;
+    try {
       all.emplace_back(file.path, read_image_info(file.path).metadata);
+    } catch (const Error&) {
+      continue;  // others write files that this reader does not take
+    }
+  }
   return all;
 }
 

@@ -103,12 +103,19 @@ double gain_of(const Scene& scene) {
 
 double photometric_intensity(double distance2) { return std::min(kPhotometricShare * distance2, kMostIntensity); }
 
-glm::vec3 place_of(const Bounds& bounds, const glm::dvec3& from) {
-  return glm::vec3(bounds.centre + unit(from) * (kLightDistance * bounds.radius));
+double lamp_distance(const Bounds& bounds) { return kLightDistance * bounds.radius; }
+
+/// Whether lamps are so near that no float holds how their light falls off.
+bool are_too_near(const Bounds& bounds) {
+  const double distance = lamp_distance(bounds);
+  return !(kFalloffThere / (distance * distance) <= kMostAttenuation);
 }
 
-/// So near that no float holds how its light falls off: it shines as from far away, as brightly as the lamp on the
-/// centre of the bounds.
+glm::vec3 place_of(const Bounds& bounds, const glm::dvec3& from) {
+  return glm::vec3(bounds.centre + unit(from) * lamp_distance(bounds));
+}
+
+/// In place of one that is too near: it shines as from far away, as brightly as the lamp on the centre of the bounds.
 Light distant_lamp(const Scene& scene, const glm::dvec3& from, const glm::dvec3& color) {
   Light light;
   light.type = LightType::directional;
@@ -118,9 +125,9 @@ Light distant_lamp(const Scene& scene, const glm::dvec3& from, const glm::dvec3&
 }
 
 void add_lamp(Scene& scene, const Bounds& bounds, const glm::dvec3& from, const glm::dvec3& color) {
-  const double distance = kLightDistance * bounds.radius, distance2 = distance * distance;
+  const double distance = lamp_distance(bounds), distance2 = distance * distance;
   const double intensity = scene.photometric ? photometric_intensity(distance2) : 1.0;
-  if (!(kFalloffThere / distance2 <= kMostAttenuation)) {
+  if (are_too_near(bounds)) {
     scene.lights.push_back(distant_lamp(scene, from, color));
     return;
   }
@@ -183,7 +190,7 @@ void add_ground(Scene& scene) {
   const double radius = kGroundRadius * bounds.radius, height = ground_height(bounds);
   const bool fits = std::fabs(bounds.centre.x) + radius < kMostGround &&
                     std::fabs(bounds.centre.z) + radius < kMostGround && std::fabs(height) < kMostGround;
-  if (scene.triangle_count() == 0 || !fits) return;
+  if (scene.triangle_count() == 0 || !fits || are_too_near(bounds)) return;
   Mesh disc;
   disc.name = kGround;
   const glm::dvec3 up(0.0, 1.0, 0.0), centre(bounds.centre.x, height, bounds.centre.z);

@@ -35,7 +35,8 @@ double spread_light(const Light& lamp);
 
 /// Puts a level grey disc under what is drawn, a little below its lowest point, eight times as wide. It is darker
 /// where there is more light of ours, so that it looks the same under any object, and far away it is as the background.
-/// Nothing where nothing is drawn, or where the disc would leave the range of positions. The camera's far plane is
+/// Nothing where nothing is drawn, where the disc would leave the range of positions, or where lamps shine as from far
+/// away, so that no part of the disc would be dark. The camera's far plane is
 /// moved behind it; the camera of camera_seeing() is above it.
 void add_ground(Scene& scene);
 /// Takes that instance away, where there is one; its mesh and its material stay.

@@ -422,7 +422,13 @@ void add_scene(py::module_& module) {
       .def_property_readonly("instances", count(&Scene::instances), doc_of("Scene.instances"))
       .def_property_readonly("lights", count(&Scene::lights), doc_of("Scene.lights"))
       .def_property_readonly(
-          "notes", [](const PythonScene& s) { return s.values().notes; }, doc_of("Scene.notes"))
+          "notes",
+          [](const PythonScene& s) {
+            std::vector<std::string> notes;
+            for (const std::string& note : s.values().notes) notes.push_back(in_words_of_python(note));
+            return notes;
+          },
+          doc_of("Scene.notes"))
       .def("__repr__", &described);
 }
 

@@ -171,5 +171,39 @@ TEST_CASE("info reads a PNG whole, and refuses one with a damaged byte anywhere 
   }
 }
 
+TEST_CASE("What is so with every model file is said in docs, and what is so with this one in a note") {
+  const ScratchFolder folder;
+  folder.write("m.mtl", "newmtl m\nKa 1 1 1\nKd 0.5 0.5 0.5\nKs 1 1 1\nNs 10\nNi 1.5\nTf 1 1 1\nillum 2\n");
+  folder.write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+  folder.write("m.gltf", R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0],
+                   "max": [1, 1, 0]}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,)"
+                         R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+  folder.write(
+      "s.json",
+      R"({"version": 1, "objects": [{"geometry": "m.obj"}], "lights": [{"type": "ambient", "color": [0.2, 0.2, 0.2]}]})");
+  const auto said = [&](const std::string& scene, Arguments more = {}) {
+    more.insert(more.begin(), {"render", scene, "--size", "16x12", "-o", "a.png"});
+    const Outcome outcome = run_command(more, folder.path(""));
+    CHECK(outcome.exit_code == 0);
+    return outcome;
+  };
+  for (const char* model : {"m.obj", "m.gltf"}) CHECK(!has(said(model).err, "note:"));
+  CHECK(has(said("m.gltf", {"--target", "rgba16f"}).err, "note: The target rgba16f holds linear light"));
+  CHECK(has(said("s.json").err, "note: 1 material states shininess, which is ignored"));
+  CHECK(has(said("m.obj", {"--preset", "punctual"}).err, "note: The target rgba16f holds linear light"));
+  const auto ignored = nlohmann::json::parse(said("m.obj", {"--json"}).out)["ignored"];
+  CHECK(ignored.dump().find("shininess") != std::string::npos);
+}
+
+TEST_CASE("No note advises an exposure where one was given") {
+  const std::string bright =
+      R"("lights": [{"type": "point", "position": [0, 2, 4], "range": 9, "color": [50, 50, 50]}])";
+  CHECK(has(said_of(bright), "--target rgba16f keeps it, and --exposure auto brings it into range)"));
+  CHECK(has(said_of(bright, {"--exposure", "0"}), "--target rgba16f keeps it)"));
+}
+
 }  // namespace
 }  // namespace trueshade

@@ -121,30 +121,33 @@ void check_library(const obj::MtlDocument& document) {
 
 void run_obj(Bytes bytes) {
   for (const MissingNormals missing : {MissingNormals::smooth, MissingNormals::flat})
-    read([&] {
-      Faults faults(Leniency::refused);
-      const obj::ObjDocument document = obj::read_obj(bytes, "m.obj", small_limits(), faults);
-      check_document(document);
-      Scene scene = scene_from_obj(bytes, "m.obj", small_limits(), picture_of_name, missing, files_with(kLibrary));
-      check_meshes(scene, document.corners.size() - 2 * document.polygon_count());
-      check_scene(std::move(scene));
-    });
+    for (const Leniency leniency : kEachWay)
+      read([&] {
+        const SceneLimits limits = small_limits(leniency);
+        Faults faults(leniency);
+        const obj::ObjDocument document = obj::read_obj(bytes, "m.obj", limits, faults);
+        check_document(document);
+        Scene scene = scene_from_obj(bytes, "m.obj", limits, picture_of_name, missing, files_with(kLibrary));
+        check_meshes(scene, document.corners.size() - 2 * document.polygon_count());
+        check_scene(std::move(scene));
+      });
 }
 
 void run_mtl(Bytes bytes) {
-  read([&] {
-    Faults faults(Leniency::refused);
-    const obj::MtlDocument document = obj::read_mtl(bytes, "m.mtl", faults);
-    check_library(document);
-    std::string file = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 2\n";
-    for (const obj::MtlMaterial& material : document.materials)
-      file += "usemtl " + material.name + " \nf 1/1 2/1 3/1\n";  // a name may end in a backslash, which joins lines
-    const std::vector<uint8_t> content(file.begin(), file.end());
-    Scene scene = scene_from_obj(content, "m.obj", small_limits(), picture_of_name, MissingNormals::flat,
-                                 files_with(text_of(bytes)));
-    check_meshes(scene, document.materials.size());
-    check_scene(std::move(scene));
-  });
+  for (const Leniency leniency : kEachWay)
+    read([&] {
+      Faults faults(leniency);
+      const obj::MtlDocument document = obj::read_mtl(bytes, "m.mtl", faults);
+      check_library(document);
+      std::string file = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 2\n";
+      for (const obj::MtlMaterial& material : document.materials)
+        file += "usemtl " + material.name + " \nf 1/1 2/1 3/1\n";  // a name may end in a backslash, which joins lines
+      const std::vector<uint8_t> content(file.begin(), file.end());
+      Scene scene = scene_from_obj(content, "m.obj", small_limits(leniency), picture_of_name, MissingNormals::flat,
+                                   files_with(text_of(bytes)));
+      check_meshes(scene, document.materials.size());
+      check_scene(std::move(scene));
+    });
 }
 
 }  // namespace trueshade::fuzz

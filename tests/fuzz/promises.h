@@ -33,7 +33,10 @@ void read(Job job) {
 }
 
 /// Limits under which an input takes milliseconds.
-SceneLimits small_limits();
+SceneLimits small_limits(Leniency leniency = Leniency::refused);
+
+/// Strictly, and with faults passed over.
+inline constexpr Leniency kEachWay[] = {Leniency::refused, Leniency::asked};
 
 /// A scene that was read is in range, and stays so at any time or says so.
 void check_scene(Scene scene);

@@ -294,6 +294,21 @@ def test_instances_from_an_array_are_those_added_one_by_one():
     assert all_at_once.instances == 5
 
 
+def test_faults_are_passed_over_and_paths_trusted_where_that_is_asked_for(tmp_path):
+    faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n"
+    (tmp_path / "lost.obj").write_text("mtllib lost.mtl\n" + faces)
+    (tmp_path / "far.mtl").write_text("newmtl m\n")
+    (tmp_path / "here").mkdir()
+    (tmp_path / "here" / "far.obj").write_text("mtllib ../far.mtl\n" + faces)
+    lost, far = str(tmp_path / "lost.obj"), str(tmp_path / "here" / "far.obj")
+    one_clear_error(lambda: trueshade.load_scene(lost), "add lenient=True to look at it all the same")
+    one_clear_error(lambda: trueshade.load_scene(far), "or trust_paths=True where you trust the file")
+    one_clear_error(lambda: trueshade.load_scene(far, lenient=False), "trust_paths")
+    assert trueshade.load_scene(far, trust_paths=True).notes == []
+    notes = trueshade.load_scene(lost, lenient=True).notes
+    assert [note.split(":")[0] for note in notes[-1:]] == ["As lenient=True asks"]
+
+
 def test_wrong_names_and_numbers_are_one_clear_error():
     scene = trueshade.Scene()
     for call, about in [

@@ -243,6 +243,26 @@ TEST_CASE("lenient: statements of OBJ that cannot be read are left out, and indi
   CHECK(scene.meshes[0].normal[2][0] == 1.0f);
 }
 
+TEST_CASE("lenient: a face of OBJ that names what is not there is left out") {
+  const ScratchFolder folder;
+  const Scene scene =
+      passed_file(folder.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\nf 1//1 2//1 3//1\nf 3 2 1\n"),
+                  "m.obj: line 4: the index of a vertex is 9");
+  CHECK_STARTS_WITH(the_fault(scene), "2 statements are left out: ");
+  CHECK(scene.notes.size() == 1);
+  error_of(ErrorKind::bad_input,
+           [&] { load_scene(folder.write("none.obj", "f 1 2 3\n"), with(Leniency::asked), decode_plain); });
+}
+
+TEST_CASE("lenient: a file that names a scene and has none draws all of its roots") {
+  Asset asset;
+  asset.accessor(kTriangle, "VEC3");
+  CHECK(passed(
+            asset.gltf(
+                R"("scene": 0, "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}])"))
+            .triangle_count() == 1);
+}
+
 TEST_CASE("lenient: pictures of a scene file, and models that it names") {
   const ScratchFolder folder;
   folder.write("m.obj", std::string("mtllib absent.mtl\n") + kObj);
@@ -284,7 +304,7 @@ SceneLimits trusting() {
   return limits;
 }
 
-TEST_CASE("trusted paths may be absolute, lead out of the folder, and be links; the rules of URIs stay") {
+TEST_CASE("trusted paths may be absolute, lead out of the folder and be links, and the rules of URIs stay") {
   CHECK(path_from_uri("/a/b.ply", "w", NamedPaths::any) == "/a/b.ply");
   CHECK(path_from_uri("../a.ply", "w", NamedPaths::any) == "../a.ply");
   for (const char* bad : {"", "a\\b", "a%00b", "http://x/a.ply", "C:/a.ply"})

@@ -53,7 +53,8 @@ bool is_read(std::string_view extension) {
 /// Whether what an extension changes is how surfaces look, or nothing that a picture shows: without it the file's
 /// shapes are still there.
 bool leaves_shapes(std::string_view extension) {
-  constexpr std::string_view kParts[] = {"_materials_", "_texture_", "_lights_", "_animation_pointer", "_xmp", "_lod"};
+  constexpr std::string_view kParts[] = {"_materials_",        "_texture_", "_lights_", "_technique_",
+                                         "_animation_pointer", "_xmp",      "_lod"};
   return std::any_of(std::begin(kParts), std::end(kParts),
                      [&](std::string_view part) { return extension.find(part) != std::string_view::npos; });
 }

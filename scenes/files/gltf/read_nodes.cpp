@@ -222,7 +222,10 @@ void read_scenes(const json::Node& root, const Counts& counts, Document& documen
       roots.push_back(root);
     });
   });
-  document.scene = index_or_none(root, "scene", counts.scenes, "scene");
+  if (const auto scene = root.find("scene"); scene && counts.scenes == 0)
+    document.pass(Fault::value, scene->pointer(), "there are no scenes", "a list of scenes with one");
+  else
+    document.scene = index_or_none(root, "scene", counts.scenes, "scene");
 }
 
 }  // namespace

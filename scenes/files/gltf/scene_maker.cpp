@@ -297,7 +297,7 @@ void SceneMaker::add_notes() {
        " EXT_mesh_gpu_instancing, which is ignored: Only a mesh without a skin is copied");
   if (!asked_.camera)
     note(std::max<uint64_t>(scene_.cameras.size(), 1) - 1, "camera is", "cameras are",
-         " ignored: The picture is taken through the first camera");
+         " ignored: The file's first camera is the scene's");
   if (!asked_.animation)
     note(std::max<uint64_t>(document_.animations.size(), 1) - 1, "animation is", "animations are",
          " ignored: The first animation is played");

@@ -19,6 +19,9 @@ std::string in_small_letters(std::string_view word) {
   return text;
 }
 
+/// Words that programs write into every file: docs/obj.md says of them what a note would say of each file.
+constexpr std::string_view kInEveryFile[] = {"ka", "ni", "tf"};
+
 class MtlReader {
  public:
   MtlReader(std::span<const uint8_t> file, const std::string& name, Faults& faults)
@@ -42,7 +45,8 @@ class MtlReader {
       begin_material();
     else if (document_.materials.empty())
       text_.fail("'" + shown_word(text_.keyword()) + "' stands before the first newmtl", "newmtl and a name first");
-    else if (!read_value(keyword, document_.materials.back()) && !read_map(keyword, document_.materials.back()))
+    else if (!read_value(keyword, document_.materials.back()) && !read_map(keyword, document_.materials.back()) &&
+             std::find(std::begin(kInEveryFile), std::end(kInEveryFile), keyword) == std::end(kInEveryFile))
       ++document_.passed_over[shown_word(text_.keyword())];
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <span>
 
 #include "scenes/files/obj/geometry_budget.h"
 #include "scenes/files/obj/statements.h"
@@ -52,7 +53,7 @@ class ObjReader {
     try {
       read_statement();
     } catch (const Error& error) {
-      faults_.pass(Fault::statement, std::to_string(text_.line()), error);
+      faults_.pass(Fault::statement, document_.file + ": line " + std::to_string(text_.line()), error);
       document_.corners.resize(corners);
       if (keyword == "v") document_.positions.resize(positions + 3, 0.0f);
       if (keyword == "vt") document_.uvs.resize(uvs + 2, 0.0f);
@@ -228,21 +229,31 @@ class ObjReader {
     document_.runs.back().first_polygon = uint32_t(document_.polygon_count());
   }
 
-  /// Indices from 1 on may name what stands below them, so that they are checked last.
+  /// Indices from 1 on may name what stands below them, so that they are checked last. Corners of a face that is passed
+  /// over become one point: it covers no pixel.
   void check_indices() {
     const int64_t counts[] = {int64_t(document_.position_count()), int64_t(document_.uvs.size() / 2),
                               int64_t(document_.normals.size() / 3)};
     const char* const kNames[] = {"vertex", "texture coordinate", "normal"};
-    size_t polygon = 0;
-    for (size_t i = 0; i < document_.corners.size(); ++i) {
-      if (i == document_.polygon_ends[polygon]) ++polygon;
-      const Corner& c = document_.corners[i];
-      const int32_t indices[] = {c.position, c.uv, c.normal};
-      for (int k = 0; k < 3; ++k)
-        if (indices[k] >= counts[k])
-          text_.fail_at(document_.polygon_lines[polygon],
-                        std::string("the index of a ") + kNames[k] + " is " + std::to_string(indices[k] + 1),
-                        "at most the " + std::to_string(counts[k]) + " that the file has");
+    constexpr int kKinds[] = {0, 1, 2};
+    size_t first = 0;
+    for (size_t polygon = 0; polygon < document_.polygon_count(); ++polygon) {
+      const std::span<Corner> corners =
+          std::span(document_.corners).subspan(first, document_.polygon_ends[polygon] - first);
+      first = document_.polygon_ends[polygon];
+      for (const Corner& c : corners) {
+        const int32_t indices[] = {c.position, c.uv, c.normal};
+        const auto beyond =
+            std::find_if(std::begin(kKinds), std::end(kKinds), [&](int k) { return indices[k] >= counts[k]; });
+        if (beyond == std::end(kKinds)) continue;
+        const uint32_t line = document_.polygon_lines[polygon];
+        faults_.pass(Fault::statement, document_.file + ": line " + std::to_string(line),
+                     std::string("the index of a ") + kNames[*beyond] + " is " + std::to_string(indices[*beyond] + 1),
+                     "at most the " + std::to_string(counts[*beyond]) + " that the file has");
+        if (counts[0] == 0) text_.fail_at(line, "there is no vertex", "v statements");
+        std::fill(corners.begin(), corners.end(), Corner{0, -1, -1});
+        break;
+      }
     }
   }
 

@@ -296,7 +296,7 @@ TEST_CASE("the scene's first camera is looked through") {
   CHECK(scene.camera.near == 0.25f);
   CHECK(scene.camera.far == 8.0f);
   REQUIRE(scene.notes.size() == 1);
-  CHECK_STARTS_WITH(scene.notes[0], "1 camera is ignored: The picture is taken through the first camera");
+  CHECK_STARTS_WITH(scene.notes[0], "1 camera is ignored: The file's first camera is the scene's");
 }
 
 TEST_CASE("an orthographic camera shows xmag and ymag to each side") {

@@ -252,10 +252,11 @@ TEST_CASE("MTL: libraries: several on a line, with blanks in their names, in fol
 }
 
 TEST_CASE("MTL: what is not drawn is named in a note") {
-  const Scene scene = with_library("newmtl m\nKa 1 1 1\nNi 1.5\nillum 7\nmap_Ka nowhere.png\nPcr 0.1\nvendor_word 3\n");
+  const Scene scene =
+      with_library("newmtl m\nKa 1 1 1\nNi 1.5\nTf 1 1 1\nillum 7\nmap_Ka nowhere.png\nPcr 0.1\nvendor_word 3\n");
   CHECK(scene.notes ==
         std::vector<std::string>{
-            "What the material library says by these words is not drawn: Ka (1), Ni (1), Pcr (1), map_Ka (1), "
+            "What the material library says by these words is not drawn: Pcr (1), map_Ka (1), "
             "vendor_word (1)",
             "1 material asks for reflection or refraction (illum 3 to 9), which is not drawn: Their highlights are"});
 }
