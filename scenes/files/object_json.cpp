@@ -280,9 +280,9 @@ std::vector<ObjectReader::Part> ObjectReader::parts_of_models(const std::string&
   const std::string path = slash == std::string::npos ? file : path_.substr(0, slash + 1) + file;
   SceneLimits left = limits_;
   left.texture_bytes -= std::min(left.texture_bytes, surfaces_.bytes());
-  GltfGeometry geometry = geometry_of(is_gltf_name(file)
-                                          ? scene_from_gltf(bytes, path, left, decode_)
-                                          : scene_from_obj(bytes, path, left, decode_, missing));
+  GltfGeometry geometry =
+      geometry_of(is_gltf_name(file) ? scene_from_gltf(bytes, path, left, decode_, {}, GltfTangents::left_out)
+                                     : scene_from_obj(bytes, path, left, decode_, missing));
   const uint32_t first_material = uint32_t(scene_.materials.size());
   const int32_t first_texture = int32_t(scene_.textures.size());
   for (Material& material : geometry.materials) {
