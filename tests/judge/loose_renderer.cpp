@@ -232,7 +232,11 @@ class Drawing {
     const Mesh& mesh = scene_.meshes[scene_.instances[instance].mesh];
     float side = 0;
     for (size_t i = 0; i < 3; ++i) side += mesh.tangent[3][mesh.indices[t + i]];
-    return glm::determinant(glm::dmat3(scene_.instances[instance].world_from_object)) < 0 ? -side : side;
+    const glm::dmat4x3 m(scene_.instances[instance].world_from_object);
+    double determinant = 0;
+    for (int r = 0; r < 3; ++r)
+      determinant += m[0][r] * (m[1][(r + 1) % 3] * m[2][(r + 2) % 3] - m[1][(r + 2) % 3] * m[2][(r + 1) % 3]);
+    return determinant < 0 ? -side : side;
   }
 
   /// What the fragment shader makes of a sample.
