@@ -21,6 +21,7 @@ namespace {
 oracle::GlslOptions options_without_scene(const GlslFilesOptions& asked, const Pipeline& pipeline) {
   oracle::GlslOptions options;
   options.maps = options.specular_maps = options.normal_maps = options.more_uv = options.double_sided = asked.maps;
+  options.vertex_tangents = asked.maps;
   options.metal_maps = options.emission_maps = options.occlusion_maps = options.unlit = asked.maps;
   options.transparent = pipeline.transparency.mode != TransparencyMode::none;
   return options;

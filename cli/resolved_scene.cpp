@@ -130,7 +130,7 @@ std::string mesh_json(const Mesh& mesh, ResolvedArrays& arrays) {
   JsonObject json;
   json.put("name", mesh.name);
   json.put_raw("position", arrays.streams(mesh.position)).put_raw("normal", optional(mesh.normal));
-  json.put_raw("color", optional(mesh.color));
+  json.put_raw("color", optional(mesh.color)).put_raw("tangent", optional(mesh.tangent));
   JsonArray sets;
   sets.add_raw(optional(mesh.uv));
   for (const UvStreams& set : mesh.more_uv) sets.add_raw(optional(set));
@@ -238,7 +238,8 @@ std::string light_meshes_json(const LightMeshes& meshes) {
 ResolvedNumbers resolved_numbers(const Scene& scene, const Pipeline& pipeline) {
   ResolvedNumbers numbers;
   for (const Mesh& mesh : scene.meshes) {
-    const uint64_t streams = 6 + (mesh.has_color() ? 4 : 0) + 2 * (1 + mesh.more_uv.size());
+    const uint64_t optional = (mesh.has_color() ? 4 : 0) + (mesh.has_tangents() ? 4 : 0);
+    const uint64_t streams = 6 + optional + 2 * (1 + mesh.more_uv.size());
     numbers.of_scene += streams * mesh.vertex_count() + mesh.indices.size();
   }
   for (const Texture& texture : scene.textures)

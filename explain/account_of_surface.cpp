@@ -52,6 +52,8 @@ Account surface_account(const ExplainedFrame& frame, uint32_t of_instance, const
     part.add("along_x", std::array{lookup.at.u_x, lookup.at.v_x}, "how u and v change by a pixel to the right");
     part.add("along_y", std::array{lookup.at.u_y, lookup.at.v_y}, "and by a pixel up");
     part.add("texel", lookup.texel, "filtered R, G, B, A");
+    if (lookup.map == "normal" && surface.tangent)
+      part.add("tangent", *surface.tangent, "of the vertices, interpolated: U in the world, and the side of B");
   }
   const LightModel& model = frame.pipeline.light_model;
   add_planes(surface.computed, model, out.part("computed", "As interpolated, with maps and material"));

@@ -16,12 +16,10 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// The directions along which u and v grow; zero where the triangle has no area in uv.
-struct Tangents {
-  Vector u{}, v{};
-};
+}  // namespace
 
-Tangents tangents_of(std::array<MapCorner, 3> corners) {
+MapTangents tangents_of(const std::array<MapCorner, 3>& submitted) {
+  std::array<MapCorner, 3> corners = submitted;
   std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
   const auto side = [&](size_t k) {
     std::array<double, 5> out;
@@ -33,14 +31,11 @@ Tangents tangents_of(std::array<MapCorner, 3> corners) {
   const double area = one[3] * two[4] - two[3] * one[4], sign = area < 0.0 ? -1.0 : 1.0;
   if (area == 0.0) return {};
   return {times(minus(times(e1, two[4]), times(e2, one[4])), sign),
-          times(minus(times(e2, one[3]), times(e1, two[3])), sign)};
+          times(minus(times(e2, one[3]), times(e1, two[3])), sign), 0.0};
 }
 
-}  // namespace
-
-std::array<float, 3> bent_normal(const std::array<MapCorner, 3>& corners, const std::array<float, 3>& normal,
+std::array<float, 3> bent_normal(const MapTangents& along, const std::array<float, 3>& normal,
                                  const std::array<float, 4>& texel, float scale) {
-  const Tangents along = tangents_of(corners);
   const Vector n{double(normal[0]), double(normal[1]), double(normal[2])};
   const double n2 = dot(n, n);
   const Vector in_plane = minus(along.u, times(n, dot(n, along.u) / n2));
@@ -48,7 +43,8 @@ std::array<float, 3> bent_normal(const std::array<MapCorner, 3>& corners, const 
   if (!(n2 > 0.0 && t2 > 0.0)) return normal;
   const Vector t = times(in_plane, 1.0 / std::sqrt(t2)), c = cross(n, t);
   const double length = 1.0 / std::sqrt(n2);
-  const Vector b = times(c, dot(c, along.v) < 0.0 ? -length : length);
+  const double side = along.side != 0.0 ? along.side : dot(c, along.v);
+  const Vector b = times(c, side < 0.0 ? -length : length);
   const double x = (2.0 * double(texel[0]) - 1.0) * double(scale), y = (2.0 * double(texel[1]) - 1.0) * double(scale),
                z = 2.0 * double(texel[2]) - 1.0;
   std::array<float, 3> out;

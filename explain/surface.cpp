@@ -7,6 +7,7 @@
 #include "explain/normal_map.h"
 #include "raster/surfaces/back_faces.h"
 #include "scenes/pipeline/material_values.h"
+#include "scenes/placement.h"
 
 namespace trueshade {
 namespace {
@@ -38,6 +39,15 @@ struct TriangleCorners {
   std::array<float, 3> of(const FloatStream& stream, float missing) const {
     if (stream.empty()) return {missing, missing, missing};
     return {stream[index[0]], stream[index[1]], stream[index[2]]};
+  }
+
+  /// A row of world_from_object times the tangents of the mesh.
+  std::array<float, 3> tangent(size_t row) const {
+    std::array<float, 3> out;
+    const float* const m = transform.world[row];
+    for (size_t k = 0; k < 3; ++k)
+      out[k] = (m[0] * mesh.tangent[0][index[k]] + m[1] * mesh.tangent[1][index[k]]) + m[2] * mesh.tangent[2][index[k]];
+    return out;
   }
 
  private:
@@ -191,6 +201,29 @@ SurfacePlanes read_planes(const ExplainedFrame& frame, const SurfacePlanes& comp
   return out;
 }
 
+/// docs/arithmetic.md section 13: the triangle's frame, or that of vertices' tangents.
+MapTangents frame_of(const ExplainedFrame& frame, const PixelFragment& f, const TriangleCorners& corners,
+                     const Interpolator& at, size_t uv_set, PixelSurface& out) {
+  if (!corners.mesh.has_tangents()) {
+    const UvStreams& uv = corners.mesh.uv_set(uv_set);
+    const std::array<float, 3> u = corners.of(uv[0], 0.0f), v = corners.of(uv[1], 0.0f);
+    std::array<MapCorner, 3> of_map;
+    for (size_t k = 0; k < 3; ++k)
+      of_map[k] = {corners.position[0][k], corners.position[1][k], corners.position[2][k], u[k], v[k]};
+    return tangents_of(of_map);
+  }
+  const std::array<float, 3> w = corners.of(corners.mesh.tangent[3], 0.0f);
+  const bool mirrored = mirrors(frame.scene.instances[f.instance].world_from_object);
+  out.tangent = {0.0f, 0.0f, 0.0f, (w[0] + w[1] + w[2] < 0.0f) == (mirrored == out.turned) ? -1.0f : 1.0f};
+  MapTangents along;
+  for (size_t c = 0; c < 3; ++c) {
+    (*out.tangent)[c] = at(frame.pipeline.gbuffer.normal.interpolation, corners.tangent(c));
+    along.u[c] = double((*out.tangent)[c]);
+  }
+  along.side = double((*out.tangent)[3]);
+  return along;
+}
+
 /// Position, normal, colour and uv as interpolated, and the maps looked up.
 void interpolate(const ExplainedFrame& frame, const PixelFragment& f, const GBufferState& planes, PixelSurface& out) {
   const TriangleCorners corners(frame, f);
@@ -212,12 +245,8 @@ void interpolate(const ExplainedFrame& frame, const PixelFragment& f, const GBuf
   if (const auto* texel = texel_of(out.lookups, "color"))
     for (size_t c = 0; c < 4; ++c) to.albedo[c] = to.albedo[c] * (*texel)[c];
   if (const auto* texel = texel_of(out.lookups, "normal")) {
-    const UvStreams& uv = corners.mesh.uv_set(maps->normal->uv_set);
-    const std::array<float, 3> u = corners.of(uv[0], 0.0f), v = corners.of(uv[1], 0.0f);
-    std::array<MapCorner, 3> of_map;
-    for (size_t k = 0; k < 3; ++k)
-      of_map[k] = {corners.position[0][k], corners.position[1][k], corners.position[2][k], u[k], v[k]};
-    to.normal = bent_normal(of_map, to.normal, *texel, maps->normal_scale);
+    const MapTangents along = frame_of(frame, f, corners, at, maps->normal->uv_set, out);
+    to.normal = bent_normal(along, to.normal, *texel, maps->normal_scale);
   }
 }
 

@@ -31,8 +31,9 @@ struct PixelSurface {
   CornerWeights weights;
   bool turned = false;  ///< the normal of a double-sided back face was negated
   std::vector<MapLookup> lookups;
-  SurfacePlanes computed;  ///< before any plane's format rounds them
-  SurfacePlanes read;      ///< as lights read them from the planes
+  std::optional<std::array<float, 4>> tangent{};  ///< of vertices, interpolated in the world; the side of B
+  SurfacePlanes computed;                         ///< before any plane's format rounds them
+  SurfacePlanes read;                             ///< as lights read them from the planes
 };
 
 /// The surface of a fragment, rounded to the formats of `planes`. docs/arithmetic.md sections 5, 7 and 13.

@@ -17,7 +17,7 @@ inline constexpr int kSubpixels = 256;  ///< window coordinates are counted in 1
 
 /// The values at one vertex: clip x, y, z, w, then whatever is carried along. All are floats as submitted; at a cut
 /// they are doubles.
-inline constexpr size_t kMaxValues = 26;
+inline constexpr size_t kMaxValues = 29;
 using VertexValues = std::array<double, kMaxValues>;
 
 /// A piece of a clipped triangle, ready to be sampled. Vertices in the order submitted.

@@ -144,6 +144,11 @@ VertexValues vertex_values(const Scene& scene, const Instance& instance, const M
     const UvStreams& uv = set == 0 ? mesh.uv : mesh.more_uv[set - 1];
     for (size_t k = 0; k < 2; ++k) out[uv_index(set) + k] = double(component(uv[k], vertex, 0.0f));
   }
+  for (size_t r = 0; r < 3 && mesh.has_tangents(); ++r) {
+    const std::array<float, 4>& row = rows.world[r];
+    const float x = mesh.tangent[0][vertex], y = mesh.tangent[1][vertex], z = mesh.tangent[2][vertex];
+    out[kTangent + r] = double((row[0] * x + row[1] * y) + row[2] * z);
+  }
   return out;
 }
 
@@ -160,7 +165,8 @@ ScalarFrame scalar_frame(const Scene& scene, const Pipeline& pipeline) {
     const std::span<const uint32_t> indices = scene.meshes[drawn.mesh].indices;
     const GeometryState faced = state_of(scene, drawn, state);
     const bool both_sides = scene.materials[drawn.material].double_sided;
-    const size_t used = uv_index(1 + scene.meshes[drawn.mesh].more_uv.size());
+    const Mesh& mesh = scene.meshes[drawn.mesh];
+    const size_t used = mesh.has_tangents() ? kTangent + 3 : uv_index(1 + mesh.more_uv.size());
     for (uint32_t triangle = 0; triangle < indices.size() / 3; ++triangle) {
       std::array<VertexValues, 3> values;
       for (size_t i = 0; i < 3; ++i)

@@ -14,7 +14,7 @@
 namespace trueshade::oracle {
 
 /// Where each attribute lies in VertexValues, after clip x, y, z, w.
-enum ValueIndex : size_t { kClip = 0, kPosition = 4, kNormal = 7, kAlbedo = 10, kUv = 14 };
+enum ValueIndex : size_t { kClip = 0, kPosition = 4, kNormal = 7, kAlbedo = 10, kUv = 14, kTangent = 26 };
 
 /// Of u of a set of texture coordinates; v follows.
 constexpr size_t uv_index(size_t set) { return kUv + 2 * set; }
@@ -80,7 +80,8 @@ long double fragment_w(const DrawnTriangle& triangle, int x, int y);
 /// The normal at pixel (x, y), y up, made unit length there where the state says so.
 std::array<ValueRange, 3> normal_at(const DrawnTriangle& triangle, const GBufferState& state, int x, int y);
 
-/// The values of one vertex as floats: clip position, world position and normal, colour times base colour, uv.
+/// The values of one vertex as floats: clip position, world position and normal, colour times base colour, uv, the
+/// world's tangent where the mesh has any.
 VertexValues vertex_values(const Scene& scene, const Instance& instance, const Matrix4& clip_from_world,
                            UnitNormals unit_normals, uint32_t vertex);
 

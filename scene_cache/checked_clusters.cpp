@@ -11,9 +11,9 @@ void CheckedClusters::check(const Scene& scene, const Instance& instance, const 
   const auto lines_each = size_t(mesh.surface_lines);
   check_part(mesh.surface, cluster.first_vertex / kLine * lines_each, lines * lines_each);
   const Mesh& source = scene.meshes[instance.mesh];
-  if (source.has_uv() || !source.more_uv.empty()) {
+  if (source.has_uv() || !source.more_uv.empty() || source.has_tangents()) {
     check_part(mesh.vertex, cluster.first_vertex, cluster.vertices);
-    check_texture_coordinates(source, {mesh.vertex.data() + cluster.first_vertex, cluster.vertices});
+    check_own_streams(source, {mesh.vertex.data() + cluster.first_vertex, cluster.vertices});
   }
   for (const TextureSlot* map : maps_of(scene.materials[instance.material]))
     if (map->used()) check_texture(scene.textures[size_t(map->texture)], size_t(map->texture));
@@ -25,11 +25,14 @@ void CheckedClusters::check_texture(const Texture& texture, size_t index) const 
   texture_is_checked_[index].store(true, std::memory_order_release);
 }
 
-void CheckedClusters::check_texture_coordinates(const Mesh& mesh, std::span<const uint32_t> vertices) const {
+void CheckedClusters::check_own_streams(const Mesh& mesh, std::span<const uint32_t> vertices) const {
   for (size_t set = 0; set <= mesh.more_uv.size(); ++set)
     for (const FloatStream& stream : mesh.uv_set(set))
       for (const uint32_t vertex : vertices)
         if (!stream.empty()) check_part(stream, vertex, 1);
+  for (const FloatStream& stream : mesh.tangent)
+    for (const uint32_t vertex : vertices)
+      if (!stream.empty()) check_part(stream, vertex, 1);
 }
 
 }  // namespace trueshade

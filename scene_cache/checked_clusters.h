@@ -18,7 +18,7 @@ class CheckedClusters : public ClusterSource {
 
  private:
   void check_texture(const Texture& texture, size_t index) const;
-  void check_texture_coordinates(const Mesh& mesh, std::span<const uint32_t> vertices) const;
+  void check_own_streams(const Mesh& mesh, std::span<const uint32_t> vertices) const;
   template <class T, class Vector>
   void check_part(const Array<T, Vector>& array, size_t first, size_t count) const {
     if (!array.owned()) file_->check(array.data() + first, count * sizeof(T));

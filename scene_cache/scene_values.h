@@ -35,8 +35,8 @@ void each_member(auto& visit, Same<Texture> auto& value) {
 }
 
 void each_member(auto& visit, Same<Mesh> auto& value) {
-  auto& [name, position, normal, uv, more_uv, color, indices, pose] = value;
-  each_of(visit, name, position, normal, uv, more_uv, color, indices, pose);
+  auto& [name, position, normal, uv, more_uv, color, tangent, indices, pose] = value;
+  each_of(visit, name, position, normal, uv, more_uv, color, tangent, indices, pose);
 }
 
 void each_member(auto& visit, Same<ClusterBoxes> auto& value) {
@@ -87,13 +87,13 @@ void each_member(auto& visit, Same<Skin> auto& value) {
 }
 
 void each_member(auto& visit, Same<MorphTarget> auto& value) {
-  auto& [position, normal] = value;
-  each_of(visit, position, normal);
+  auto& [position, normal, tangent] = value;
+  each_of(visit, position, normal, tangent);
 }
 
 void each_member(auto& visit, Same<RestShape> auto& value) {
-  auto& [position, normal, flat_normals, targets, influences, joints, weights] = value;
-  each_of(visit, position, normal, flat_normals, targets, influences, joints, weights);
+  auto& [position, normal, tangent, flat_normals, targets, influences, joints, weights] = value;
+  each_of(visit, position, normal, tangent, flat_normals, targets, influences, joints, weights);
 }
 
 void each_member(auto& visit, Same<WeightTrack> auto& value) {

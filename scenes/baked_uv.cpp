@@ -38,17 +38,6 @@ bool are_sets_as_they_stand(const Sources& sources) {
   return true;
 }
 
-UvStreams baked(const UvStreams& from, const UvTransform& transform) {
-  if (transform == UvTransform()) return from;
-  UvStreams out;
-  const UvMatrix matrix(transform);
-  for (size_t v = 0; v < from[0].size(); ++v) {
-    const glm::vec2 uv = matrix(from[0][v], from[1][v]);
-    out[0].push_back(uv.x), out[1].push_back(uv.y);
-  }
-  return out;
-}
-
 void bake(const Sources& sources, Mesh& mesh) {
   if (are_sets_as_they_stand(sources)) return;
   std::vector<UvStreams> sets;
@@ -63,6 +52,18 @@ uint64_t bytes_of(const Mesh& mesh, size_t uv_sets) {
 }
 
 }  // namespace
+
+UvStreams baked(const UvStreams& from, const UvTransform& transform) {
+  if (transform == UvTransform()) return from;
+  const FpScope fp;
+  UvStreams out;
+  const UvMatrix matrix(transform);
+  for (size_t v = 0; v < from[0].size(); ++v) {
+    const glm::vec2 uv = matrix(from[0][v], from[1][v]);
+    out[0].push_back(uv.x), out[1].push_back(uv.y);
+  }
+  return out;
+}
 
 void bake_uv(Scene& scene, std::span<const UvSources> sources, const std::function<void(uint64_t)>& take) {
   const FpScope fp;

@@ -15,6 +15,9 @@ struct UvSource {
   bool operator==(const UvSource&) const = default;
 };
 
+/// A set that a source names, in f64 and rounded once.
+UvStreams baked(const UvStreams& set, const UvTransform& transform);
+
 /// Of a material, in the order of maps_of(); not read where the material has no such map.
 using UvSources = std::array<UvSource, kMaterialMaps>;
 

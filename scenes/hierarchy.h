@@ -26,7 +26,8 @@ std::vector<double> weights_at(const WeightTrack& track, double time);
 /// The world's matrix of each node at a time.
 std::vector<glm::dmat4x3> world_from_nodes(const Timeline& timeline, double time);
 
-/// Writes the positions and normals of a posed mesh. Error(bad_input) behind `where` for a vertex beyond 1e18.
+/// Writes the positions, normals and tangents of a posed mesh. Error(bad_input) behind `where` for a vertex beyond
+/// 1e18.
 void pose_mesh(const PosedMesh& posed, const Timeline& timeline, std::span<const glm::dmat4x3> world_from_nodes,
                double time, const std::string& where, Mesh& mesh);
 

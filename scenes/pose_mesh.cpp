@@ -74,6 +74,12 @@ glm::dvec3 turned_normal(const glm::dmat4x3& matrix, const glm::dvec3& n) {
   return unit(dot(m[0], x) < 0.0 ? -out : out);
 }
 
+glm::dvec3 turned_tangent(const glm::dmat4x3& m, const glm::dvec3& t) {
+  glm::dvec3 out;
+  for (int r = 0; r < 3; ++r) out[r] = (m[0][r] * t.x + m[1][r] * t.y) + m[2][r] * t.z;
+  return unit(out);
+}
+
 /// Deltas of a target that takes part.
 struct WeightedDeltas {
   const Streams* deltas;
@@ -116,25 +122,30 @@ void pose_mesh(const PosedMesh& posed, const Timeline& timeline, std::span<const
   if (posed.skin) joints = joint_matrices(timeline.skins[*posed.skin], world_from_nodes);
   const bool skinned = posed.skin.has_value() && shape.influences > 0;
   const std::vector<WeightedDeltas> moved_positions = moving_targets(shape, &MorphTarget::position, weights),
-                                    moved_normals = moving_targets(shape, &MorphTarget::normal, weights);
+                                    moved_normals = moving_targets(shape, &MorphTarget::normal, weights),
+                                    moved_tangents = moving_targets(shape, &MorphTarget::tangent, weights);
   for (size_t v = 0; v < mesh.vertex_count(); ++v) {
-    glm::dvec3 p = morphed(shape.position, moved_positions, v), n(0.0);
+    glm::dvec3 p = morphed(shape.position, moved_positions, v), n(0.0), t(0.0);
     if (!shape.flat_normals) n = morphed(shape.normal, moved_normals, v);
     if (!moved_normals.empty()) n = unit(n);
+    if (mesh.has_tangents()) t = morphed(shape.tangent, moved_tangents, v);
+    if (!moved_tangents.empty()) t = unit(t);
     if (skinned) {
       const glm::dmat4x3 m = blended(shape, v, joints);
       p = moved(m, p);
       n = turned_normal(m, n);
+      t = turned_tangent(m, t);
     }
     if (!all_within(p, kLargest))
       throw Error(ErrorKind::bad_input, where + ": vertex " + std::to_string(v), "its pose takes it beyond 1e18",
                   "smaller weights and matrices");
-    if (!all_within(n, kLargest))
+    if (!all_within(n, kLargest) || !all_within(t, kLargest))
       throw Error(ErrorKind::bad_input, where + ": vertex " + std::to_string(v),
-                  "its pose takes its normal beyond 1e18", "smaller weights and matrices");
+                  "its pose takes its normal or its tangent beyond 1e18", "smaller weights and matrices");
     for (int k = 0; k < 3; ++k) {
       mesh.position[size_t(k)][v] = float(p[k]);
       if (!shape.flat_normals) mesh.normal[size_t(k)][v] = float(n[k]);
+      if (mesh.has_tangents()) mesh.tangent[size_t(k)][v] = float(t[k]);
     }
   }
   if (shape.flat_normals) set_flat_normals(mesh);

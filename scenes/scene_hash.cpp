@@ -45,6 +45,9 @@ class SceneHasher {
     for (const auto& stream : mesh.color) add(stream);
     count(mesh.indices.size());
     sha_.update(mesh.indices.data(), mesh.indices.size() * sizeof mesh.indices[0]);
+    if (!mesh.has_tangents()) return;
+    add(~uint64_t(0));  // no count is as large
+    for (const auto& stream : mesh.tangent) add(stream);
   }
 
   void add(const Texture& texture) {
@@ -270,7 +273,7 @@ std::string scene_hash(const Scene& scene) {
     if (scene.instances[i].mirrored) hasher.add(kMirrored + i);
   for (size_t i = 0; i < scene.meshes.size(); ++i) hasher.add_more_uv(kSecondUv + i, kNextUv, scene.meshes[i]);
   const bool unmapped = std::none_of(scene.materials.begin(), scene.materials.end(),
-                                  [](const Material& m) { return m.textured() || m.masked(); });
+                                     [](const Material& m) { return m.textured() || m.masked(); });
   if (unmapped) return hasher.hex();
   hasher.add(uint64_t(3) << 61);  // no count, and none of the above
   hasher.count(scene.textures.size());

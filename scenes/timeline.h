@@ -83,11 +83,11 @@ struct Skin {
 
 /// Vertices before they are posed. Streams of a target are optional, one delta a vertex.
 struct MorphTarget {
-  std::array<FloatStream, 3> position, normal;
+  std::array<FloatStream, 3> position, normal, tangent;
 };
 /// A mesh's vertices before they are posed, and what poses them.
 struct RestShape {
-  std::array<FloatStream, 3> position, normal;
+  std::array<FloatStream, 3> position, normal, tangent;
   bool flat_normals = false;         ///< normals are those of the posed triangles, which share no vertices
   std::vector<MorphTarget> targets;  ///< position + sum of weight * delta, in this order
   uint32_t influences = 0;           ///< joints a vertex; 0: no skin

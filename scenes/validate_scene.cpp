@@ -54,6 +54,9 @@ void check_mesh(const Mesh& mesh, const Part& part) {
   part.require(mesh.more_uv.size() < kMaxUvSets, "the mesh has too many sets of texture coordinates", "at most 6");
   for (const UvStreams& set : mesh.more_uv) check(set, true, "uv");
   check(mesh.color, true, "color");
+  check(mesh.tangent, true, "tangent");
+  for (const float side : mesh.tangent[3])
+    part.require(side == 1.0f || side == -1.0f, "the w of a tangent is out of range", "1 or -1");
   part.require(mesh.indices.size() % 3 == 0, "the number of indices is no multiple of 3", "3 a triangle");
   for (const uint32_t index : mesh.indices)
     if (index >= count)

@@ -96,6 +96,7 @@ MapTextures::MapTextures(const Scene& scene) : scene_(&scene) {
     return textures;
   };
   more_uv_ = reads_more_uv(scene);
+  vertex_tangents_ = reads_tangents(scene);
   white_ = uploaded(white, Sampler{});
   color_ = upload(&Material::color_map, white);
   const auto uploaded_if_any = [&](const TextureSlot Material::*slot, const Texture& none) {
@@ -110,7 +111,7 @@ MapTextures::MapTextures(const Scene& scene) : scene_(&scene) {
 
 void MapTextures::bind(GLuint program, uint32_t material) const {
   // Fragment shaders have 16 samplers or more, and all stages together 48 texture units or more (GL 3.3, table 6.32).
-  // Unit 16 is that of the texture coordinates behind the first set.
+  // Unit 16 is that of the texture coordinates behind the first set, unit 20 that of vertices' tangents.
   constexpr int kColorUnit = 15, kSpecularUnit = 14, kNormalUnit = 13;
   constexpr int kMetalUnit = 17, kEmissionUnit = 18, kOcclusionUnit = 19;
   const Material& m = scene_->materials[material];

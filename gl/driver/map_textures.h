@@ -17,6 +17,7 @@ class MapTextures {
   bool metal() const { return !metal_.empty(); }
   bool emission() const { return !emission_.empty(); }
   bool occlusion() const { return !occlusion_.empty(); }
+  bool vertex_tangents() const { return vertex_tangents_; }  ///< there are normal maps and meshes with tangents
   bool more_uv() const { return more_uv_; }  ///< some map reads texture coordinates beside the first set
 
   /// Hands a material's maps and cutoff to a program of GlslOptions::maps, in texture units 13 to 18.
@@ -27,7 +28,7 @@ class MapTextures {
   GlTexture white_;  ///< of maps that no material has, for programs that read them all the same
   std::vector<GlTexture> color_, specular_, normal_, metal_, emission_,
       occlusion_;  ///< one a material; where it has none, a texel that does nothing
-  bool more_uv_ = false;
+  bool more_uv_ = false, vertex_tangents_ = false;
 };
 
 }  // namespace trueshade::oracle

@@ -66,6 +66,7 @@ SceneBuffers::MeshBuffers SceneBuffers::upload(const Mesh& shared, int rotation)
   const Mesh own = maps_.normal() ? unshared(shared) : Mesh{};
   const Mesh& mesh = maps_.normal() ? own : shared;
   if (maps_.normal()) out.tangents = make_texel_buffer(tangent_texels(mesh, maps_.more_uv()));
+  if (maps_.vertex_tangents()) out.vertex_tangents = make_texel_buffer(vertex_tangent_texels(mesh));
   if (maps_.more_uv()) out.more_uv = make_texel_buffer(more_uv_texels(mesh));
   out.array = make_vertex_array();
   glBindVertexArray(out.array);
@@ -108,7 +109,8 @@ GLuint program_in_use() {
 
 void SceneBuffers::draw_run(const InstanceRun& run, GLuint program) const {
   constexpr int kTangentUnit = 11;
-  constexpr int kMoreUvUnit = 16;  // of vertex shaders alone: fragment shaders are sure of the units below it only
+  // Of vertex shaders alone: fragment shaders are sure of the units below 16 only.
+  constexpr int kMoreUvUnit = 16, kVertexTangentUnit = 20;
   const MeshBuffers& mesh = meshes_[run.mesh];
   // Constant values of the attributes a mesh may lack.
   glVertexAttrib4f(kColor, 1, 1, 1, 1);
@@ -117,6 +119,8 @@ void SceneBuffers::draw_run(const InstanceRun& run, GLuint program) const {
   if (double_sided_) set_uniform(program, "double_sided", int(run.double_sided));
   if (maps_.used()) maps_.bind(program, run.material);
   if (maps_.normal()) bind_texture(program, "tangents", kTangentUnit, GL_TEXTURE_BUFFER, mesh.tangents.texture);
+  if (maps_.vertex_tangents())
+    bind_texture(program, "vertex_tangents", kVertexTangentUnit, GL_TEXTURE_BUFFER, mesh.vertex_tangents.texture);
   if (maps_.more_uv()) bind_texture(program, "more_uv", kMoreUvUnit, GL_TEXTURE_BUFFER, mesh.more_uv.texture);
   glBindVertexArray(mesh.array);
   glBindBuffer(GL_ARRAY_BUFFER, instances_);

@@ -45,8 +45,9 @@ class SceneBuffers {
   struct MeshBuffers {
     GlVertexArray array;
     GlBuffer vertices, indices;
-    GlTexelBuffer tangents;  ///< where there are normal maps
-    GlTexelBuffer more_uv;   ///< where maps read texture coordinates beside the first set
+    GlTexelBuffer tangents;         ///< where there are normal maps
+    GlTexelBuffer vertex_tangents;  ///< where meshes have any beside
+    GlTexelBuffer more_uv;          ///< where maps read texture coordinates beside the first set
     GLsizei index_count = 0;
   };
   MeshBuffers upload(const Mesh& mesh, int rotation) const;

@@ -132,23 +132,53 @@ vec3 unit_normal(vec3 n) {
 }
 )";
 
-/// docs/arithmetic.md section 13: a texel of a normal map in the frame of the triangle's texture coordinates.
-constexpr const char* kBentNormal = R"(uniform sampler2D normal_map;
+/// docs/arithmetic.md section 13: a texel of a normal map in the frame of the triangle's texture coordinates, or of
+/// vertices' tangents.
+std::string bent_normal_text(const GlslOptions& options) {
+  const std::string side = options.double_sided ? "(double_sided && !gl_FrontFacing ? -tangent_side : tangent_side)"
+                                                : std::string("tangent_side");
+  return R"(uniform sampler2D normal_map;
 uniform float normal_scale;
 
 // The normal of a texel: x along growing u, y along growing v, both across N; N where u and v do not grow.
 vec3 bent_normal(vec3 N, vec3 texel) {
   float n2 = dot(N, N);
-  vec3 T = along_u - N * (dot(N, along_u) / n2);
+  vec3 U = )" +
+         std::string(options.vertex_tangents ? "tangent_side == 0.0 ? along_u : vertex_tangent" : "along_u") +
+         R"(;
+  vec3 T = U - N * (dot(N, U) / n2);
   float t2 = dot(T, T);
   if (!(n2 > 0.0 && t2 > 0.0)) return N;
   T = T * inversesqrt(t2);
   vec3 C = cross(N, T);
-  vec3 B = C * (dot(C, along_v) < 0.0 ? -inversesqrt(n2) : inversesqrt(n2));
+  float v = )" +
+         (options.vertex_tangents ? "tangent_side == 0.0 ? dot(C, along_v) : " + side : "dot(C, along_v)") +
+         R"(;
+  vec3 B = C * (v < 0.0 ? -inversesqrt(n2) : inversesqrt(n2));
   vec3 t = vec3((2.0 * texel.xy - 1.0) * normal_scale, 2.0 * texel.z - 1.0);
   return (T * t.x + B * t.y) + N * t.z;
 }
 )";
+}
+
+/// What a vertex shader makes of the frame of its triangle, and of its own tangent.
+std::string tangents_text(const GlslOptions& options) {
+  if (!options.normal_maps) return {};
+  const auto turned = [](const std::string& v) {
+    return "vec3(linear(world_from_object[0].xyz, " + v + "), linear(world_from_object[1].xyz, " + v +
+           "), linear(world_from_object[2].xyz, " + v + "));\n";
+  };
+  std::string text = "  int frame = gl_VertexID / 3 * " +
+                     std::string(options.more_uv ? "12 + 2 * normal_uv_set" : "2") +
+                     ";\n"
+                     "  vec3 u = texelFetch(tangents, frame).xyz, v = texelFetch(tangents, frame + 1).xyz;\n"
+                     "  along_u = " +
+                     turned("u") + "  along_v = " + turned("v");
+  if (!options.vertex_tangents) return text;
+  return text + "  vec4 own = texelFetch(vertex_tangents, gl_VertexID);\n  vertex_tangent = " + turned("own.xyz") +
+         "  vec3 rows = cross(world_from_object[0].xyz, world_from_object[1].xyz);\n"
+         "  tangent_side = dot(rows, world_from_object[2].xyz) < 0.0 ? -own.w : own.w;  // of a matrix that mirrors\n";
+}
 
 /// `vec3 P` from its plane, or from the stored depth as docs/arithmetic.md section 7 says.
 std::string position_text(const GBufferState& g) {
@@ -220,6 +250,8 @@ std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, 
     declare(g.uv.interpolation, "vec2", (map + "_texcoord").c_str());
   if (options.normal_maps) declare(Interpolation::flat, "vec3", "along_u");
   if (options.normal_maps) declare(Interpolation::flat, "vec3", "along_v");
+  if (options.vertex_tangents) declare(g.normal.interpolation, "vec3", "vertex_tangent");
+  if (options.vertex_tangents) declare(Interpolation::flat, "float", "tangent_side");
   if (carries_ids(pipeline, options)) declare(Interpolation::flat, "uvec2", "ids");
   if (options.maps && direction == "in") text += "uniform sampler2D color_map;\nuniform float alpha_cutoff;\n";
   if (options.double_sided && direction == "in") text += "uniform bool double_sided;\n";
@@ -227,7 +259,7 @@ std::string varyings_text(const Pipeline& pipeline, const GlslOptions& options, 
     for (const std::string& name : material_maps(pipeline.light_model, options))
       text += "uniform sampler2D " + name + "_map;\n";
   if (direction == "in" && made_unit_at_fragment(g.unit_normals)) text += kUnitNormal;
-  if (options.normal_maps && direction == "in") text += kBentNormal;
+  if (options.normal_maps && direction == "in") text += bent_normal_text(options);
   return text;
 }
 
@@ -324,6 +356,8 @@ layout(location = 15) in uvec2 instance_ids;
     text += "uniform samplerBuffer tangents;  // two texels a triangle" +
             std::string(options.more_uv ? " and each of six sets" : "") +
             ", in the object: where u grows, where v grows\n";
+  if (options.vertex_tangents)
+    text += "uniform samplerBuffer vertex_tangents;  // a texel a vertex: its tangent and w; 0 where it has none\n";
   text += more_uv_text(options);
   text += varyings_text(pipeline, options, "out");
   if (options.version >= 400) text += "precise gl_Position;\n";
@@ -351,14 +385,7 @@ void main() {
   if (carries_uv(pipeline, options)) text += "  texcoord = vertex_uv;\n";
   for (const std::string& map : maps_with_own_uv(options))
     text += "  " + map + "_texcoord = uv_of(" + map + "_uv_set);\n";
-  if (options.normal_maps)
-    text += "  int frame = gl_VertexID / 3 * " + std::string(options.more_uv ? "12 + 2 * normal_uv_set" : "2") +
-            ";\n"
-            "  vec3 u = texelFetch(tangents, frame).xyz, v = texelFetch(tangents, frame + 1).xyz;\n"
-            "  along_u = vec3(linear(world_from_object[0].xyz, u), linear(world_from_object[1].xyz, u), "
-            "linear(world_from_object[2].xyz, u));\n"
-            "  along_v = vec3(linear(world_from_object[0].xyz, v), linear(world_from_object[1].xyz, v), "
-            "linear(world_from_object[2].xyz, v));\n";
+  text += tangents_text(options);
   if (carries_ids(pipeline, options)) text += "  ids = instance_ids;\n";
   return text + "}\n";
 }

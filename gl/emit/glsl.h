@@ -19,7 +19,8 @@ struct GlslOptions {
   bool instance_uniforms = false;  ///< matrices and base colour are uniforms, a draw an instance: for large meshes
   bool maps = false;               ///< materials have colour maps (1 where one has none) and alpha cutoffs, a draw each
   bool specular_maps = false;      ///< of maps: specular maps too, read where the model takes the material's colour
-  bool normal_maps = false;  ///< of maps: normal maps too; triangles share no vertices, `tangents` has their frames
+  bool normal_maps = false;      ///< of maps: normal maps too; triangles share no vertices, `tangents` has their frames
+  bool vertex_tangents = false;  ///< of normal maps: some meshes have tangents, which `vertex_tangents` has
   // Of maps, read where the light model maps metals or adds emission: white where a material has none.
   bool metal_maps = false, emission_maps = false, occlusion_maps = false;
   bool more_uv = false;       ///< of maps: some read texture coordinates beside the first set, from `more_uv`

@@ -68,6 +68,9 @@ constexpr Meaning kMeanings[] = {
      "RGBA32F texels, two a triangle of the mesh (with more_uv, two for each of six sets), unit vectors in the object "
      "along growing u and growing v, 0 where uv has no area; no two triangles share a vertex: gl_VertexID / 3 is the "
      "triangle"},
+    {"vertex_tangents",
+     "RGBA32F texels, one a vertex: of meshes with tangents the tangent in the object and 1 or -1, the same at a "
+     "triangle's corners: the normal map's green points along it times normal x tangent; else 0"},
     {"more_uv", "RGBA32F texels, five a vertex, u and v of sets 1 to 5, 0 where the mesh has none"},
     {"materials",
      "RGBA32F texels, three a material: specular colour, shininess (with metallic and rough materials that of the "

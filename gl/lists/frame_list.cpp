@@ -133,6 +133,7 @@ class FrameLister {
     list_.buffers.push_back({"vertices." + number, bytes_of(std::span<const float>(vertices)), false});
     list_.buffers.push_back({"indices." + number, bytes_of(std::span<const uint32_t>(mesh.indices)), false});
     if (options_.normal_maps) add_texels("tangents." + number, tangent_texels(mesh, options_.more_uv));
+    if (options_.vertex_tangents) add_texels("vertex_tangents." + number, vertex_tangent_texels(mesh));
     if (options_.more_uv) add_texels("more_uv." + number, more_uv_texels(mesh));
   }
 
@@ -265,6 +266,7 @@ class FrameLister {
     draw.uniforms.push_back({"alpha_cutoff", {double(m.alpha_cutoff)}});
     if (options_.normal_maps) draw.uniforms.push_back({"normal_scale", {double(m.normal_scale)}});
     if (options_.normal_maps) draw.bindings.push_back({"tangents", "tangents." + mesh});
+    if (options_.vertex_tangents) draw.bindings.push_back({"vertex_tangents", "vertex_tangents." + mesh});
     if (options_.more_uv) draw.bindings.push_back({"more_uv", "more_uv." + mesh});
     for (const NamedMap& map : kNamedMaps) {
       const TextureSlot& slot = m.*map.slot;

@@ -128,6 +128,7 @@ Mesh unshared(const Mesh& mesh) {
   copied(mesh.normal, out.normal);
   copied(mesh.color, out.color);
   copied(mesh.uv, out.uv);
+  copied(mesh.tangent, out.tangent);
   out.more_uv.resize(mesh.more_uv.size());
   for (size_t k = 0; k < mesh.more_uv.size(); ++k) copied(mesh.more_uv[k], out.more_uv[k]);
   out.indices.resize(mesh.indices.size());
@@ -139,6 +140,17 @@ std::vector<float> tangent_texels(const Mesh& mesh, bool all_sets) {
   const size_t sets = all_sets ? kMaxUvSets : 1;
   std::vector<float> out(8 * sets * (mesh.indices.size() / 3));
   for (size_t set = 0; set < sets; ++set) add_tangents(mesh, mesh.uv_set(set), 8 * set, 8 * sets, out);
+  return out;
+}
+
+std::vector<float> vertex_tangent_texels(const Mesh& mesh) {
+  std::vector<float> out(4 * mesh.vertex_count());
+  for (size_t v = 0; v < mesh.vertex_count() && mesh.has_tangents(); ++v) {
+    for (size_t c = 0; c < 3; ++c) out[4 * v + c] = mesh.tangent[c][v];
+    const FloatStream& side = mesh.tangent[3];
+    const size_t first = v - v % 3;
+    out[4 * v + 3] = side[first] + side[first + 1] + side[first + 2] < 0 ? -1.0f : 1.0f;
+  }
   return out;
 }
 
@@ -203,6 +215,11 @@ bool reads_more_uv(const Scene& scene) {
   });
 }
 
+bool reads_tangents(const Scene& scene) {
+  return any_material(scene, [](const Material& m) { return m.normal_map.used(); }) &&
+         std::any_of(scene.meshes.begin(), scene.meshes.end(), [](const Mesh& m) { return m.has_tangents(); });
+}
+
 GlslOptions scene_options(const Scene& scene) {
   GlslOptions options;
   const auto has = [&](const TextureSlot Material::*map) {
@@ -211,6 +228,7 @@ GlslOptions scene_options(const Scene& scene) {
   options.maps = any_material(scene, [](const Material& m) { return m.textured() || m.masked(); });
   options.specular_maps = has(&Material::specular_map);
   options.normal_maps = has(&Material::normal_map);
+  options.vertex_tangents = reads_tangents(scene);
   options.metal_maps = has(&Material::metallic_roughness_map);
   options.emission_maps = has(&Material::emission_map);
   options.occlusion_maps = has(&Material::occlusion_map);

@@ -44,6 +44,10 @@ Mesh unshared(const Mesh& mesh);
 /// The frames of all triangles of unshared(): of the first set, or of each of kMaxUvSets in turn.
 std::vector<float> tangent_texels(const Mesh& mesh, bool all_sets);
 
+/// Of each vertex of unshared() its tangent, and as w the sign of the sum of its triangle's; zeros where
+/// the mesh has none.
+std::vector<float> vertex_tangent_texels(const Mesh& mesh);
+
 /// u and v of the sets behind the first, kMaxUvSets - 1 texels a vertex.
 std::vector<float> more_uv_texels(const Mesh& mesh);
 
@@ -57,6 +61,8 @@ bool has_double_sided(const Scene& scene);  ///< an instance of such a material
 bool has_transparent(const Scene& scene);
 /// Some map reads texture coordinates beside the first set.
 bool reads_more_uv(const Scene& scene);
+/// There are normal maps and meshes with tangents.
+bool reads_tangents(const Scene& scene);
 
 /// The options of shaders that draw the scene, with all planes.
 GlslOptions scene_options(const Scene& scene);

@@ -61,13 +61,14 @@ Across across(const Bounded3& n, double n_error, const TangentFrame& frame, cons
   for (Bounded& c : t) c = product(a, c, t_inverse);
   const Bounded3 c = cross(a, n, t);
   const double size = length(n), theta = n_error / (size - n_error);
-  const double sine = t_inverse.value > 0 ? 1 / (t_inverse.value * (length(frame.u) + error_of(frame.u))) : 0;
+  const double longest_inverse = t_inverse.value + t_inverse.error;  // over all that U may be
+  const double sine = longest_inverse > 0 ? 1 / (longest_inverse * (length(frame.u) + error_of(frame.u))) : 0;
   const double turned = theta / (sine - theta);
   if (!std::isfinite(t_inverse.error) || !(size > n_error) || !(sine > theta) || turned > 1) return out;
   out.open = false;
-  const Bounded side = dot(a, c, frame.v);
+  const Bounded side = frame.side != 0 ? Bounded{double(frame.side), 0} : dot(a, c, frame.v);
   const double moved = (n_error + turned * size) * (length(frame.v) + error_of(frame.v));
-  const bool either = std::fabs(side.value) <= side.error + moved;
+  const bool either = frame.either_side || std::fabs(side.value) <= side.error + moved;
   for (size_t k = 0; k < 3; ++k) {
     out.t[k] = range_about(t[k], turned);
     const Range b = range_about(product(a, c[k], n_inverse), turned), other{-b.value, -b.high, -b.low};
@@ -78,6 +79,25 @@ Across across(const Bounded3& n, double n_error, const TangentFrame& frame, cons
 }
 
 }  // namespace
+
+TangentFrame vertex_frame(const Projector& projector, uint32_t instance, uint32_t triangle) {
+  const Instance& drawn = projector.scene().instances[instance];
+  const Mesh& mesh = projector.scene().meshes[drawn.mesh];
+  float corners = 0;
+  for (size_t i = 0; i < 3; ++i) corners += mesh.tangent[3][mesh.indices[3 * size_t(triangle) + i]];
+  const glm::mat4x3& m = drawn.world_from_object;
+  double determinant = 0, size = 0;
+  for (int k = 0; k < 3; ++k)
+    for (const int way : {1, 2}) {
+      const double term = double(m[0][k]) * double(m[1][(k + way) % 3]) * double(m[2][(k + 3 - way) % 3]);
+      determinant += way == 1 ? term : -term, size += std::fabs(term);
+    }
+  TangentFrame frame;
+  frame.side = (corners < 0) == (determinant < 0) ? 1 : -1;
+  const double unsure = 8 * projector.profile().arithmetic.roundoff * size + 0x1p-120;  // floats round, vanish
+  frame.either_side = !projector.profile().exact_vertices && (std::fabs(determinant) <= unsure || size > 0x1p120);
+  return frame;
+}
 
 TangentFrame tangent_frame(const Projector& projector, uint32_t instance, uint32_t triangle,
                            const TriangleValues& values, size_t uv_set) {

@@ -4,10 +4,17 @@
 
 namespace trueshade::oracle {
 
-/// The directions along which u and v grow on a triangle, in the world, of any length; zero where uv has no area.
+/// The directions along which u and v grow, in the world, of any length: on a triangle, whose uv without area leaves
+/// both zero; or, where `side` is not 0, of vertices' tangents.
 struct TangentFrame {
   Bounded3 u, v;
+  int side = 0;              ///< B is along N x u where it is above 0, against it where it is below
+  bool either_side = false;  ///< or the other way: the matrix may mirror or not, as far as float arithmetic tells
 };
+
+/// The side of B of a triangle's corners together: by their tangents' w and by whether the instance's matrix
+/// mirrors, whose determinant a shader may be unable to tell from 0. `u` is left to the pixel.
+TangentFrame vertex_frame(const Projector& projector, uint32_t instance, uint32_t triangle);
 
 /// Of vertices in the world, as docs/arithmetic.md has it, in double; unless the profile has exact vertices, or of
 /// vertices in the object, turned into the world by the shader: three products of a row with one rounding each, two

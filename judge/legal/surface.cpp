@@ -239,6 +239,10 @@ TriangleValues triangle_values(const Projector& projector, uint32_t instance, ui
         size += std::fabs(double(drawn.world_from_object[int(c)][int(r)]) * double(mesh.position[c][vertex]));
       t.error[i][kPosition + r] = step * size;
     }
+    for (size_t r = 0; r < 3 && mesh.has_tangents(); ++r)
+      for (size_t c = 0; c < 3; ++c)
+        t.error[i][kTangent + r] +=
+            step * std::fabs(double(drawn.world_from_object[int(c)][int(r)]) * double(mesh.tangent[c][vertex]));
     if (!made_unit_at_vertex(unit_normals)) {
       const InstanceRows rows = instance_rows(drawn, projector.clip_from_world());
       for (size_t r = 0; r < 3; ++r)

@@ -59,18 +59,24 @@ Range either(const Range& a, const Range& b, bool first) {
 }  // namespace
 
 void SurfaceValues::bend(const std::array<Range, 4>& bumps) {
-  const TangentFrame& frame = form_->tangents();
+  TangentFrame frame = form_->tangents();
+  const Interpolation how = projector_.pipeline().gbuffer.normal.interpolation;
   std::array<Range, 3> n, turned;
   for (size_t k = 0; k < 3; ++k) {
-    n[k] = straight_normal(int(k), projector_.pipeline().gbuffer.normal.interpolation);
+    n[k] = straight_normal(int(k), how);
     turned[k] = negated(n[k]);
+    if (frame.side == 0) continue;
+    const Range u = attribute(kTangent + k, how);
+    frame.u[k] = {u.value, std::max(u.high - u.value, u.value - u.low)};
   }
-  const auto bent = [&](const std::array<Range, 3>& normal) {
-    return bent_normal(normal, frame, bumps, double(material_->normal_scale), projector_.profile());
+  TangentFrame back_frame = frame;  // B stays, though the normal is turned round
+  back_frame.side = -frame.side;
+  const auto bent = [&](const std::array<Range, 3>& normal, const TangentFrame& along) {
+    return bent_normal(normal, along, bumps, double(material_->normal_scale), projector_.profile());
   };
-  bent_ = bent(may_be_front() ? n : turned);
+  bent_ = may_be_front() ? bent(n, frame) : bent(turned, back_frame);
   if (!may_be_front() || !may_be_back()) return;
-  const std::array<Range, 3> back = bent(turned);
+  const std::array<Range, 3> back = bent(turned, back_frame);
   for (size_t k = 0; k < 3; ++k) (*bent_)[k] = either((*bent_)[k], back[k], piece_->front);
 }
 

@@ -27,7 +27,9 @@ const TangentFrame& TriangleForm::tangents() const {
   if (!tangents_) {
     const Scene& scene = projector_.scene();
     const Material& material = scene.materials[scene.instances[instance_].material];
-    tangents_ = tangent_frame(projector_, instance_, triangle_, values_, material.normal_map.uv_set);
+    const bool of_vertices = scene.meshes[scene.instances[instance_].mesh].has_tangents();
+    tangents_ = of_vertices ? vertex_frame(projector_, instance_, triangle_)
+                            : tangent_frame(projector_, instance_, triangle_, values_, material.normal_map.uv_set);
   }
   return *tangents_;
 }

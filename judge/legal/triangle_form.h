@@ -23,7 +23,7 @@ class TriangleForm {
   /// A ValueIndex plus a component, at the vertices of a piece, to be interpolated so. Not for flat ones.
   const VertexAttribute& attribute(size_t piece, size_t index, Interpolation interpolation) const;
 
-  /// Of the uv set that the material's normal map reads.
+  /// Of the uv set that the material's normal map reads; of vertices' tangents the side alone.
   const TangentFrame& tangents() const;
 
  private:

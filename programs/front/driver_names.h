@@ -4,7 +4,8 @@ namespace trueshade::programs {
 
 /// The names outside functions that shaders of gl/emit have before a light program's text, which may take none of them.
 inline constexpr const char* kDriverNames =
-    "float world_position, world_normal, color, base, texcoord, along_u, along_v, ids, alpha_cutoff, double_sided, "
+    "float world_position, world_normal, color, base, texcoord, along_u, along_v, vertex_tangent, tangent_side, ids, "
+    "alpha_cutoff, double_sided, "
     "normal_scale, materials, lights, light_count, drawn_light, records, tiles, tile_size, columns, tile_lights, eye, view_axis, clip_from_world, "
     "view_from_world, clip_from_view, moment, picture_place, position_plane, normal_plane, albedo_plane, uv_plane, "
     "specular_plane, emission_plane, object_plane, material_plane, depth_plane, "

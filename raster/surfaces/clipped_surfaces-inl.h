@@ -35,6 +35,7 @@ struct ClippedPiece {
   double u[3], area;  ///< 1 / w of the corners in canonical order; the edges' exact sum, rounded once
   double attribute[kAllStreams][3];
   float provoking[kAllStreams];
+  double side = 0.0;  ///< PixelTangents::side
 
   ClippedPiece(uint32_t of, const TriangleSetup<__int128>& s)
       : id(of), setup(s), edges(s), area(double(s.edge(0, 0, 0) + s.edge(1, 0, 0) + s.edge(2, 0, 0))) {}
@@ -89,6 +90,9 @@ inline void add_clipped_pieces(const TileDraws& in, const TileRect& rect, const 
         for (int k = 0; k < 3; ++k)
           made.attribute[c][k] = corner_attribute(fan.polygon, piece.corner[order[k]], clip, t, v[0], v[1], v[2]);
       }
+      if (group[g].first != kVertexTangent) continue;
+      const float* const side = value[kVertexTangent + 3];
+      made.side = double(side[0] + side[1] + side[2]) * (made.turned ? -1.0 : 1.0);
     }
   }
 }
@@ -106,6 +110,17 @@ HWY_INLINE void set_piece_slopes(const ClippedPiece& piece, const Barycentrics& 
     for (int c = 0; c < 2; ++c) corner[c][k] = hn::Set(d, piece.attribute[uv_stream(set) + c][k]);
   }
   set_uv_slopes(w, edge, how, corner, uv);
+}
+
+/// The tangents of a piece whose attributes are set for them, interpolated as normals are.
+HWY_INLINE PixelTangents piece_tangents(const ClippedPiece& piece, const Barycentrics& w, Interpolation how) {
+  const D64 d;
+  V64 u[3];
+  for (int c = 0; c < 3; ++c) {
+    const int stream = kVertexTangent + c;
+    u[c] = hn::PromoteTo(d, triangle_attribute(w, how, piece.attribute[stream], piece.provoking[stream]));
+  }
+  return {{u[0], u[1], u[2]}, hn::Set(d, piece.side)};
 }
 
 /// Applies the maps of the lanes that a piece owns, the first of them at pixel `at` of the tile's planes.
@@ -141,7 +156,10 @@ inline void interpolate_piece(const SurfaceTask& task, const ClippedPiece& piece
   for (uint32_t lanes = piece.turned ? lane_bits(D64(), owned) : 0; lanes != 0; lanes &= lanes - 1)
     turn_normal(task.out, at + std::countr_zero(lanes));
   if (made_unit_at_fragment(task.planes.unit_normals)) make_normals_unit(df, mine, at, task.out);
-  if (maps.textured()) map_piece(piece, w, owned, at, maps, PixelFrames{task.work, at}, task.out);
+  if (!maps.textured()) return;
+  PixelTangents tangents{};
+  if (maps.tangents) tangents = piece_tangents(piece, w, task.planes.normal.interpolation);
+  map_piece(piece, w, owned, at, maps, PixelFrames{task.work, at, maps.tangents ? &tangents : nullptr}, task.out);
 }
 
 /// The pixels of clipped triangle `id` among those of the vector that begins at pixel `at`: each is of the first piece

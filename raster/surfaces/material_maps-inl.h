@@ -23,7 +23,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// The bump frames of a vector of pixels, from the vertices of the pixels' triangles.
 struct PixelFrames {
   const VisibleVertices& work;
-  int at;  ///< the first pixel
+  int at;                         ///< the first pixel
+  const PixelTangents* tangents;  ///< null where no mesh has any
 
   HWY_INLINE BumpFrame operator()(int, int uv_set, const Vector3& normal) const {
     MapCorner corner[3];
@@ -33,7 +34,8 @@ struct PixelFrames {
         corner[k].value[c] =
             hn::PromoteTo(D64(), hn::GatherIndex(D32(), work.stream[MapCorner::stream(c, uv_set)].data(), vertex));
     }
-    return bump_frame(tangent_frame(corner), normal);
+    const TangentFrame of_triangle = tangent_frame(corner);
+    return bump_frame(tangents != nullptr ? with_tangents(of_triangle, *tangents) : of_triangle, normal);
   }
 };
 

@@ -48,10 +48,27 @@ struct MapCorner {
   }
 };
 
-/// The directions along which u and v grow on a triangle, in world space, of any length; zero where uv has no area.
+/// The directions along which u and v grow, in world space, of any length: on a triangle, whose uv without area leaves
+/// both zero; or of vertices' tangents, where `side` stands for v.
 struct TangentFrame {
   Vector3 u, v;
+  V64 side;  ///< b is along N x u where it is above 0, against it where it is below; 0: v says
 };
+
+/// Of vertices' tangents at a vector of pixels: as interpolated, and the sum of the corners' w, 0 where there are none.
+struct PixelTangents {
+  Vector3 u;
+  V64 side;
+};
+
+/// The frame with vertices' tangents in place of the triangle's, where there are any.
+HWY_INLINE TangentFrame with_tangents(const TangentFrame& of_triangle, const PixelTangents& tangents) {
+  const M64 none = hn::Eq(tangents.side, hn::Zero(D64()));
+  return {{hn::IfThenElse(none, of_triangle.u.x, tangents.u.x), hn::IfThenElse(none, of_triangle.u.y, tangents.u.y),
+           hn::IfThenElse(none, of_triangle.u.z, tangents.u.z)},
+          of_triangle.v,
+          tangents.side};
+}
 
 HWY_INLINE TangentFrame tangent_frame(const MapCorner of[3]) {
   const D64 d;
@@ -70,7 +87,7 @@ HWY_INLINE TangentFrame tangent_frame(const MapCorner of[3]) {
   const V64 sign = hn::IfThenElse(hn::Lt(area, zero), hn::Set(d, -1.0), hn::Set(d, 1.0));
   const M64 any = hn::Not(hn::Eq(area, zero));
   return {where(any, scaled(scaled(e1, b2) - scaled(e2, b1), sign)),
-          where(any, scaled(scaled(e2, a1) - scaled(e1, a2), sign))};
+          where(any, scaled(scaled(e2, a1) - scaled(e1, a2), sign)), zero};
 }
 
 /// The axes of a normal map's texels beside the normal itself, at a pixel.
@@ -92,7 +109,8 @@ HWY_INLINE BumpFrame bump_frame(const TangentFrame& frame, const Vector3& normal
   const V64 t2 = dot3(along, along);
   const Vector3 t = scaled(along, hn::Div(one, hn::Sqrt(t2))), c = cross3(normal, t);
   const V64 length = hn::Div(one, hn::Sqrt(n2));
-  return {t, scaled(c, hn::IfThenElse(hn::Lt(dot3(c, frame.v), zero), hn::Neg(length), length)),
+  const V64 side = hn::IfThenElse(hn::Eq(frame.side, zero), dot3(c, frame.v), frame.side);
+  return {t, scaled(c, hn::IfThenElse(hn::Lt(side, zero), hn::Neg(length), length)),
           hn::And(hn::Gt(n2, zero), hn::Gt(t2, zero))};
 }
 

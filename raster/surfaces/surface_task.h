@@ -19,18 +19,19 @@ struct SurfaceTask {
   VisibleVertices& work;
   SurfaceTile& out;
   bool reads_uv;  ///< texture coordinates are interpolated, for maps or for their planes
-  StreamGroup group[5];
+  StreamGroup group[6];
   int groups;       ///< that are planes
   int read_groups;  ///< and those behind them, that only maps read
 
-  int streams() const { return kStreams + 2 * (in.view.maps.uv_sets - 1); }
+  int more_uv() const { return 2 * (in.view.maps.uv_sets - 1); }
+  int streams() const { return in.view.maps.tangents ? kAllStreams : kStreams + more_uv(); }
 
   int pixels() const { return rect.size * rect.size; }
   int blocks() const { return rect.size / kBlockSize; }  ///< a row
 };
 
 /// Sets the groups: positions unless depth gives them, normals, albedo, and texture coordinates where they are needed,
-/// sets beside the first last.
+/// sets beside the first and tangents last.
 inline void set_groups(SurfaceTask& task) {
   const GBufferState& planes = task.planes;
   task.groups = 0;
@@ -39,8 +40,8 @@ inline void set_groups(SurfaceTask& task) {
   task.group[task.groups++] = {kAlbedo, 4, planes.albedo};
   if (task.reads_uv) task.group[task.groups++] = {kUv, 2, planes.uv};
   task.read_groups = task.groups;
-  if (const int more = task.streams() - kStreams; more > 0)
-    task.group[task.read_groups++] = {kStreams, more, planes.uv};
+  if (task.more_uv() > 0) task.group[task.read_groups++] = {kStreams, task.more_uv(), planes.uv};
+  if (task.in.view.maps.tangents) task.group[task.read_groups++] = {kVertexTangent, 4, planes.normal};
 }
 
 }  // namespace trueshade

@@ -10,9 +10,11 @@
 namespace trueshade {
 
 /// Attribute streams of a vertex, in the order the planes of SurfaceTile have. Sets of texture coordinates beside the
-/// first lie behind them and have no planes.
+/// first lie behind them and have no planes, and behind these the tangent: x, y, z in the world and w, whose sign a
+/// mirrored instance changes; 0 where the mesh has none.
 enum Stream : int { kPosition = 0, kNormal = 3, kAlbedo = 6, kUv = 10, kStreams = 12 };
-inline constexpr int kAllStreams = kStreams + 2 * (int(kMaxUvSets) - 1);
+inline constexpr int kVertexTangent = kStreams + 2 * (int(kMaxUvSets) - 1);
+inline constexpr int kAllStreams = kVertexTangent + 4;
 
 /// The stream of u of a set of texture coordinates; that of v follows.
 constexpr int uv_stream(int set) { return set == 0 ? int(kUv) : kStreams + 2 * (set - 1); }

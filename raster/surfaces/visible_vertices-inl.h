@@ -44,6 +44,8 @@ inline void copy_attributes(const SurfaceTask& task, const Mesh& mesh, const Clu
   for (int set = 0; set < task.in.view.maps.uv_sets && task.reads_uv; ++set)
     for (size_t c = 0; c < 2; ++c)
       copy_stream(mesh.uv_set(size_t(set))[c], vertex, count, &work.stream[size_t(uv_stream(set)) + c][at]);
+  for (size_t c = 0; c < 4 && task.in.view.maps.tangents; ++c)
+    copy_stream(mesh.tangent[c], vertex, count, &work.stream[kVertexTangent + c][at]);
 }
 
 /// Transforms the vertices of a seen cluster, given by its position in the tile's list, into the 64 of a slot.
@@ -70,11 +72,16 @@ inline void fill_slot(const SurfaceTask& task, uint32_t position, int32_t slot) 
   std::copy_n(window.u, cluster.vertices, &work.u[at]);
   copy_attributes(task, in.scene.meshes[instance.mesh], clusters, cluster, at);
   const D32 d;
+  const bool tangents = in.view.maps.tangents, mirrored = tangents && mirrors(instance.world_from_object);
   for (size_t i = at; i < at + cluster.vertices; i += hn::Lanes(d)) {
     V32 object[6], world[6];
     for (size_t c = 0; c < 6; ++c) object[c] = hn::LoadU(d, &work.stream[c][i]);
     to_world(transform, task.planes.unit_normals, object, object + 3, world);
     for (size_t c = 0; c < 6; ++c) hn::StoreU(world[c], d, &work.stream[c][i]);
+    if (!tangents) continue;
+    for (size_t c = 0; c < 4; ++c) object[c] = hn::LoadU(d, &work.stream[kVertexTangent + c][i]);
+    tangents_to_world(transform, mirrored, object, world);
+    for (size_t c = 0; c < 4; ++c) hn::StoreU(world[c], d, &work.stream[kVertexTangent + c][i]);
   }
 }
 

@@ -78,6 +78,10 @@ SceneMaps scene_maps(const Scene& scene, const Pipeline& pipeline) {
     maps.uv_sets = std::max(maps.uv_sets, made.uv_sets);
   }
   if (!any) maps.material.clear();
+  maps.tangents =
+      std::any_of(maps.material.begin(), maps.material.end(),
+                  [](const MaterialMaps& m) { return m.normal.has_value(); }) &&
+      std::any_of(scene.meshes.begin(), scene.meshes.end(), [](const Mesh& mesh) { return mesh.has_tangents(); });
   return maps;
 }
 }  // namespace trueshade

@@ -43,6 +43,7 @@ struct SceneMaps {
   std::vector<MaterialMaps> material;  ///< one per Scene::materials; empty where none has a map that is read, or a mask
   Interpolation uv_how, albedo_how;    ///< of texture coordinates and of vertex colours
   int uv_sets = 1;                     ///< one more than the last that a map reads
+  bool tangents = false;               ///< normal maps are read, and some mesh has tangents
   bool textured() const { return !material.empty(); }
 };
 SceneMaps scene_maps(const Scene& scene, const Pipeline& pipeline);

@@ -270,7 +270,8 @@ class Reader {
 
   void read_vertices(const Element& element) {
     std::vector<Target> targets(element.properties.size());
-    require_memory(element.count * sizeof(float) * std::min<size_t>(targets.size(), kMostStreams), where_, "its vertices");
+    require_memory(element.count * sizeof(float) * std::min<size_t>(targets.size(), kMostStreams), where_,
+                   "its vertices");
     assign<3>(element, targets, {"x", "y", "z"}, mesh_.position, true);
     has_normals_ = assign<3>(element, targets, {"nx", "ny", "nz"}, mesh_.normal, false);
     assign<2>(element, targets, {"u", "v"}, mesh_.uv, false) ||
@@ -365,7 +366,8 @@ Mesh mesh_from_ply(std::span<const uint8_t> file, std::string_view where, Missin
                                : Reader<BinarySource>(BinarySource(file, header, where), header, where, mesh).read();
   if (!has_normals) {
     const uint64_t corners = missing_normals == MissingNormals::flat ? mesh.indices.size() : 0;
-    require_memory(corners * sizeof(float) * streams_of(mesh) + 36 * uint64_t(mesh.vertex_count()), where, "its normals");
+    require_memory(corners * sizeof(float) * streams_of(mesh) + 36 * uint64_t(mesh.vertex_count()), where,
+                   "its normals");
     add_normals(mesh, missing_normals);
   }
   return mesh;

@@ -281,7 +281,7 @@ std::vector<ObjectReader::Part> ObjectReader::parts_of_models(const std::string&
   const std::string path = path_below(path_.substr(0, path_.rfind('/') + 1), file);  // npos + 1 is 0
   SceneLimits left = limits_;
   left.texture_bytes -= std::min(left.texture_bytes, surfaces_.bytes());
-  Scene model = is_gltf_name(file) ? scene_from_gltf(bytes, path, left, decode_)
+  Scene model = is_gltf_name(file) ? scene_from_gltf(bytes, path, left, decode_, {}, GltfTangents::left_out)
                                    : scene_from_obj(bytes, path, left, decode_, missing);
   tell_passed_over(model.passed_over, scene_);
   GltfGeometry geometry = geometry_of(std::move(model));

@@ -64,6 +64,7 @@ TEST_CASE("an explanation ends in the stored pixel, of random triangles under ev
     if (i % 2 == 0) testing::add_maps(random, scene);
     if (i % 4 == 0) testing::add_uv_sets(random, scene);
     if (i % 3 == 0) testing::add_faces(random, scene);
+    if (i % 4 < 3) testing::add_tangents(random, scene);
     const Pipeline pipeline = testing::random_pipeline(random);
     INFO("try " << i << ' ' << pipeline_json(pipeline));
     const Comparison comparison(scene, pipeline);

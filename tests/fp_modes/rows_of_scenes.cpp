@@ -272,6 +272,7 @@ void Bytes::put(const Scene& scene) {
     for (const UvStreams& set : mesh.more_uv)
       for (const auto& stream : set) put(stream);
     for (const auto& stream : mesh.color) put(stream);
+    for (const auto& stream : mesh.tangent) put(stream);
     put(mesh.indices);
   }
   for (const Material& material : scene.materials) {

@@ -86,6 +86,9 @@ TEST_CASE(
     m.emission = glm::vec3(0.1f);
   }
   for (Mesh& mesh : scene.meshes) mesh.more_uv = {{{mesh.position[1], mesh.position[0]}}, {{mesh.uv[1], mesh.uv[0]}}};
+  for (size_t i = 0; i < scene.meshes.size(); i += 2)
+    for (size_t c = 0; c < 4; ++c)
+      scene.meshes[i].tangent[c].assign(scene.meshes[i].vertex_count(), c == 1 ? -0.5f : 1.0f);
   scene.materials[0].double_sided = true;
   scene.materials[0].unlit = true;
   for (size_t i = 0; i < scene.materials.size(); i += 2) {
@@ -104,7 +107,8 @@ TEST_CASE(
     const GlslShaders read = shaders_in(folder);
     CHECK(read.transparent_frag.find("normal_map") != std::string::npos);
     const std::string list = contents(folder / "state.json");
-    for (const char* said : {"tangents: samplerBuffer", "more_uv: samplerBuffer", "double_sided: bool", "is mirrored"})
+    for (const char* said : {"tangents: samplerBuffer", "vertex_tangents: samplerBuffer", "more_uv: samplerBuffer",
+                             "double_sided: bool", "is mirrored"})
       CHECK(list.find(said) != std::string::npos);
     Pipeline pipeline = preset.pipeline;
     pipeline.strategy = strategy;
@@ -115,6 +119,7 @@ TEST_CASE(
     from_files.shaders = &read;
     from_files.shader_options.maps = from_files.shader_options.specular_maps = true;
     from_files.shader_options.normal_maps = from_files.shader_options.transparent = true;
+    from_files.shader_options.vertex_tangents = true;
     from_files.shader_options.more_uv = from_files.shader_options.double_sided = true;
     from_files.shader_options.metal_maps = from_files.shader_options.emission_maps = true;
     from_files.shader_options.occlusion_maps = from_files.shader_options.unlit = true;

@@ -149,7 +149,7 @@ TEST_CASE("Names that shaders have before a program's text are refused in it, wi
   CHECK(has(error_of("#version 460\n" + body), "lights.glsl:1"));
   GlslOptions all;
   all.maps = all.specular_maps = all.normal_maps = all.metal_maps = all.emission_maps = all.occlusion_maps = true;
-  all.more_uv = all.double_sided = all.unlit = all.transparent = true;
+  all.vertex_tangents = all.more_uv = all.double_sided = all.unlit = all.transparent = true;
   int names = 0;
   for (const char* reads : {"s.specular * s.uv.x", "vec3(s.metallic) + s.emission"})
     for (const Strategy strategy : {Strategy::deferred_loop, Strategy::forward_loop, Strategy::deferred_volumes,

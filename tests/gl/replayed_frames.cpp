@@ -93,6 +93,12 @@ TEST_CASE("Frames of 16-bit depths in another clip space, replayed, are judged w
     check_explained({kCity, "many-lights", "deferred-loop", "--pipeline '" + folder.path("p.json") + "'"}, api);
 }
 
+TEST_CASE("Meshes with tangents and meshes without, replayed in every API, are judged without a violation") {
+  const std::string scene = std::string(TRUESHADE_SOURCE_DIR) + "/tests/recompute/scenes/tangents.gltf";
+  for (const char* api : {"gl", "gl33", "es31", "vulkan"})
+    check_explained({scene, "punctual", "deferred-loop", ""}, api);
+}
+
 TEST_CASE("Every preset and strategy, replayed from its files, is judged without a violation", "[long]") {
   for (const char* api : {"gl33", "es31", "vulkan"})
     for (const char* scene : {kCity, "builtin:lecture,lights=4"})

@@ -14,6 +14,7 @@
 
 using namespace trueshade;
 using namespace trueshade::oracle;
+using trueshade::testing::add_tangents;
 using trueshade::testing::Liberties;
 using trueshade::testing::random_pipeline;
 using trueshade::testing::random_scene;
@@ -71,7 +72,8 @@ int rejected(const char* profile_name, int count, uint64_t first_seed) {
   std::set<std::pair<Strategy, Format>> ways;
   for (int i = 0; i < count; ++i) {
     Pcg32 random(first_seed + uint64_t(i));
-    const Scene scene = random_scene(random);
+    Scene scene = random_scene(random);
+    if (i % 2 == 0) add_tangents(scene);
     Pipeline asked = random_pipeline(random);
     any_way_to_draw(asked, random);
     ways.insert({asked.strategy, asked.target});

@@ -18,7 +18,7 @@ namespace {
 
 struct LooseVertex {
   float x, y, plane_x, plane_y, z, u;
-  float attribute[12];  ///< world position, normal, albedo RGBA, uv
+  float attribute[15];  ///< world position, normal, albedo RGBA, uv, the tangent of meshes that have any
 };
 
 class Drawing {
@@ -146,6 +146,12 @@ class Drawing {
     normal_of(instance, mesh, index, v.attribute + 3);
     for (size_t k = 0; k < 4; ++k) v.attribute[6 + k] = mesh.has_color() ? mesh.color[k][index] : 1;
     for (size_t k = 0; k < 2 && !mesh.uv[0].empty(); ++k) v.attribute[10 + k] = mesh.uv[k][index];
+    for (int r = 0; r < 3 && mesh.has_tangents(); ++r) {
+      const float m[3] = {instance.world_from_object[0][r], instance.world_from_object[1][r],
+                          instance.world_from_object[2][r]};
+      const float along[3] = {mesh.tangent[0][index], mesh.tangent[1][index], mesh.tangent[2][index]};
+      v.attribute[12 + r] = f_.dot(m, along);
+    }
     return v;
   }
 
@@ -167,6 +173,7 @@ class Drawing {
   struct Plane {
     float a0, gx, gy;
   };
+  using Planes = std::array<Plane, 15>;  ///< of LooseVertex::attribute
   Plane plane(const std::array<const LooseVertex*, 3>& v, const float n[3]) {
     const float x1 = f_.sub(v[1]->plane_x, v[0]->plane_x), y1 = f_.sub(v[1]->plane_y, v[0]->plane_y);
     const float x2 = f_.sub(v[2]->plane_x, v[0]->plane_x), y2 = f_.sub(v[2]->plane_y, v[0]->plane_y);
@@ -220,9 +227,20 @@ class Drawing {
     float position[3], normal[3], albedo[4], gloss[4];
   };
 
+  /// The side of N x U on which B is.
+  float side_of_v(uint32_t instance, size_t t) const {
+    const Mesh& mesh = scene_.meshes[scene_.instances[instance].mesh];
+    float side = 0;
+    for (size_t i = 0; i < 3; ++i) side += mesh.tangent[3][mesh.indices[t + i]];
+    const glm::dmat4x3 m(scene_.instances[instance].world_from_object);
+    double determinant = 0;
+    for (int r = 0; r < 3; ++r)
+      determinant += m[0][r] * (m[1][(r + 1) % 3] * m[2][(r + 2) % 3] - m[1][(r + 2) % 3] * m[2][(r + 1) % 3]);
+    return determinant < 0 ? -side : side;
+  }
+
   /// What the fragment shader makes of a sample.
-  LooseSurface surface(uint32_t instance, size_t t, const std::array<Plane, 12>& planes, const Plane& divisor, float sx,
-                       float sy) {
+  LooseSurface surface(uint32_t instance, size_t t, const Planes& planes, const Plane& divisor, float sx, float sy) {
     const Material& material = scene_.materials[scene_.instances[instance].material];
     const auto lookup = [&](const TextureSlot& slot) {
       return slot.used() ? textures_.texel(f_, slot, place(planes, divisor, sx, sy)) : std::array<float, 4>{1, 1, 1, 1};
@@ -242,9 +260,14 @@ class Drawing {
                                                   : material.specular_color[k];
     out.gloss[3] = material.shininess;
     if (!material.normal_map.used()) return out;
-    float along[2][3];
-    tangents(instance, t, along);
-    loose_bend(f_, along[0], along[1], lookup(material.normal_map), material.normal_scale, out.normal);
+    float along[2][3] = {}, side = 0;
+    if (scene_.meshes[scene_.instances[instance].mesh].has_tangents()) {
+      for (size_t k = 0; k < 3; ++k) along[0][k] = f_.div(at(planes[12 + k], sx, sy), at(divisor, sx, sy));
+      side = side_of_v(instance, t);
+    } else {
+      tangents(instance, t, along);
+    }
+    loose_bend(f_, along[0], along[1], side, lookup(material.normal_map), material.normal_scale, out.normal);
     return out;
   }
 
@@ -305,8 +328,9 @@ class Drawing {
     if (area == 0) return;
     const float z[3] = {v[0]->z, v[1]->z, v[2]->z}, u[3] = {v[0]->u, v[1]->u, v[2]->u};
     const Plane depth = plane(v, z), divisor = plane(v, u);
-    std::array<Plane, 12> planes{};
-    for (size_t k = 0; k < 12; ++k) {
+    Planes planes{};
+    const bool tangents = scene_.meshes[scene_.instances[instance].mesh].has_tangents();
+    for (size_t k = 0; k < (tangents ? planes.size() : 12); ++k) {
       const float n[3] = {f_.mul(v[0]->attribute[k], u[0]), f_.mul(v[1]->attribute[k], u[1]),
                           f_.mul(v[2]->attribute[k], u[2])};
       planes[k] = plane(v, n);
@@ -333,7 +357,7 @@ class Drawing {
   }
 
   /// Where a lookup is, and the change to a neighbour in its quad: to the right and up, or from the left and below.
-  oracle::TexturePlace place(const std::array<Plane, 12>& planes, const Plane& divisor, float x, float y) {
+  oracle::TexturePlace place(const Planes& planes, const Plane& divisor, float x, float y) {
     const float next = (f_.random().next() & 1) != 0 ? 1.0f : -1.0f;
     float uv[3][2];
     for (int at_pixel = 0; at_pixel < 3; ++at_pixel)

@@ -77,9 +77,10 @@ void loose_light(LooseFloat& f, const Scene& scene, const LightModel& model, boo
                  const float normal[3], const float albedo[3], float color[3], const float gloss[4] = nullptr,
                  const LightVolumes& extents = {});
 
-/// The normal of a texel of a normal map, of tangents along_u and along_v in the world.
-void loose_bend(LooseFloat& f, const float along_u[3], const float along_v[3], const std::array<float, 4>& texel,
-                float scale, float normal[3]);
+/// The normal of a texel of a normal map, of tangents along_u and along_v in the world. `side`: of v, where vertices'
+/// tangents say it; 0: along_v says.
+void loose_bend(LooseFloat& f, const float along_u[3], const float along_v[3], float side,
+                const std::array<float, 4>& texel, float scale, float normal[3]);
 
 /// What a fragment may make of a stored texel: of fixed-point formats given as codes, back as values, or as codes where
 /// they were blended.

@@ -10,8 +10,8 @@
 
 namespace trueshade::testing {
 
-void loose_bend(LooseFloat& f, const float along_u[3], const float along_v[3], const std::array<float, 4>& texel,
-                float scale, float normal[3]) {
+void loose_bend(LooseFloat& f, const float along_u[3], const float along_v[3], float side,
+                const std::array<float, 4>& texel, float scale, float normal[3]) {
   const float n2 = f.dot(normal, normal);
   float t[3], c[3];
   const float q = f.div(f.dot(normal, along_u), n2);
@@ -24,7 +24,7 @@ void loose_bend(LooseFloat& f, const float along_u[3], const float along_v[3], c
     const int i = (k + 1) % 3, j = (k + 2) % 3;
     c[k] = f.mad(normal[i], t[j], -f.mul(normal[j], t[i]));
   }
-  const float length = f.inverse_sqrt(n2), turn = f.dot(c, along_v) < 0 ? -length : length;
+  const float length = f.inverse_sqrt(n2), turn = (side != 0 ? side : f.dot(c, along_v)) < 0 ? -length : length;
   const float x = f.mul(f.mad(2, texel[0], -1), scale), y = f.mul(f.mad(2, texel[1], -1), scale);
   const float z = f.mad(2, texel[2], -1);
   for (int k = 0; k < 3; ++k) normal[k] = f.mad(normal[k], z, f.mad(f.mul(c[k], turn), y, f.mul(t[k], x)));

@@ -67,6 +67,15 @@ BlendState random_blend(Pcg32& random) {
 
 }  // namespace
 
+void add_tangents(Scene& scene) {
+  for (Mesh* mesh : {&scene.meshes[0], &scene.meshes[1]})  // along circles about an axis beside the mesh
+    for (size_t v = 0; v < mesh->vertex_count(); ++v) {
+      const float along[4] = {mesh->position[2][v] + 0.3f, 0.2f, 0.1f - mesh->position[0][v],
+                              mesh->position[1][v] < 0.0f ? -1.0f : 1.0f};
+      for (size_t c = 0; c < 4; ++c) mesh->tangent[c].push_back(along[c]);
+    }
+}
+
 Scene random_scene(Pcg32& random) {
   Scene scene;
   scene.spec = "random";

@@ -11,6 +11,9 @@ namespace trueshade::testing {
 /// materials.
 Scene random_scene(Pcg32& random);
 
+/// Gives the boxes and balls of random_scene() tangents, with the other w on their lower halves.
+void add_tangents(Scene& scene);
+
 /// 32 x 24 pixels, any falloff, cone and order of terms; target in 8 bits, sRGB, half or float, normals in half or
 /// float, depth in 16, 24 or 32 bits, a quarter of them offset. A quarter each: normals in ten bits, specular colours
 /// of the materials, lights of mixed extents; transparent surfaces in every mode and several blends.

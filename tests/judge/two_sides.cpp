@@ -71,6 +71,19 @@ Scene room() {
   return scene;
 }
 
+/// The same whose balls have tangents, mirrored on one half: along circles about the y axis, unless a pole is near.
+Scene room_with_tangents() {
+  Scene scene = room();
+  Mesh& ball = scene.meshes[1];
+  for (size_t v = 0; v < ball.vertex_count(); ++v) {
+    const float x = ball.position[0][v], z = ball.position[2][v], side = ball.position[1][v] < 0.1f ? 1.0f : -1.0f;
+    const float along[4] = {z, 0.3f * side, -x, side};
+    for (size_t c = 0; c < 4; ++c) ball.tangent[c].push_back(along[c]);
+  }
+  for (Material& m : scene.materials) m.double_sided = m.double_sided || m.normal_map.used();
+  return scene;
+}
+
 std::vector<Pipeline> pipelines() {
   std::vector<Pipeline> all;
   for (const Strategy strategy : {Strategy::deferred_loop, Strategy::deferred_volumes, Strategy::forward_loop})
@@ -173,6 +186,104 @@ TEST_CASE("What llvmpipe makes of both sides, mirrored instances and further tex
       const Capture wrong_capture = GlRenderer(*context, other).draw(drawn).capture;
       INFO(wrong.name);
       CHECK(violations(scene, pipeline, wrong_capture, "unknown", context->info().subpixel_bits) > 7);
+    }
+  }
+}
+
+namespace {
+
+/// Renderers that do wrong with tangents, as scenes that a right one draws so.
+constexpr Wrong kWrongTangents[] = {
+    {"w taken for 1",
+     [](Scene& s, Pipeline&) {
+       for (float& side : s.meshes[1].tangent[3]) side = 1.0f;
+     }},
+    {"w turned round",
+     [](Scene& s, Pipeline&) {
+       for (float& side : s.meshes[1].tangent[3]) side = -side;
+     }},
+    {"a matrix that mirrors forgotten",
+     [](Scene& s, Pipeline&) {  // a mesh of its own for each instance that mirrors
+       s.meshes.push_back(s.meshes[1]);
+       for (float& side : s.meshes.back().tangent[3]) side = -side;
+       for (Instance& i : s.instances)
+         if (i.mirrored) i.mesh = uint32_t(s.meshes.size() - 1);
+     }},
+    {"tangents of the file ignored", [](Scene& s, Pipeline&) { s.meshes[1].tangent = {}; }},
+};
+
+}  // namespace
+
+TEST_CASE("Vertices' tangents in our own frames are explained, wrong ones are not") {
+  const Scene scene = room_with_tangents();
+  for (const Pipeline& pipeline : pipelines()) {
+    INFO(pipeline_json(pipeline));
+    const Capture right = captured(scene, pipeline);
+    for (const char* profile : {"ideal", "unknown"}) CHECK(violations(scene, pipeline, right, profile, 8) == 0);
+    if (pipeline.geometry.cull_face != CullFace::back) continue;
+    for (const Wrong& wrong : kWrongTangents) {
+      Scene other = scene;
+      Pipeline drawn = pipeline;
+      wrong.change(other, drawn);
+      INFO(wrong.name);
+      CHECK(violations(scene, pipeline, captured(other, drawn), "unknown", 8) > 7);
+    }
+  }
+}
+
+namespace {
+
+/// The shaders of the frame with a part of their text replaced, which must be there.
+GlslShaders replaced(GlslShaders shaders, const std::string& part, const std::string& by) {
+  int found = 0;
+  for (std::string* text : {&shaders.geometry_vert, &shaders.geometry_frag, &shaders.light_vert, &shaders.light_frag})
+    for (size_t at = text->find(part); at != std::string::npos; at = text->find(part, at + by.size()), ++found)
+      text->replace(at, part.size(), by);
+  CHECK(found > 0);
+  return shaders;
+}
+
+/// Shaders that do wrong with tangents.
+constexpr struct {
+  const char *part, *by;
+} kWrongText[] = {
+    {"< 0.0 ? -own.w : own.w;", "< 0.0 ? own.w : own.w;"},                      // a matrix that mirrors forgotten
+    {"!gl_FrontFacing ? -tangent_side :", "!gl_FrontFacing ? tangent_side :"},  // B turned with the normal
+    {"vec3 T = U - N * (dot(N, U) / n2);", "vec3 T = U;"},                      // not laid across N
+    {"T = T * inversesqrt(t2);", "T = T * 1.0;"},                               // not of unit length
+    {"tangent_side == 0.0 ? dot(C, along_v)", "true ? 1.0"},                    // w dropped
+    {"own.xyz), linear(world_from_object[1]", "own.xyz), linear(-world_from_object[1]"},
+};
+
+}  // namespace
+
+TEST_CASE("What llvmpipe makes of vertices' tangents is legal, and what it makes of wrong ones is not") {
+  const GlContext* context = opened(GlDriver::llvmpipe);
+  if (context == nullptr) return;
+  const Scene scene = room_with_tangents();
+  for (const Pipeline& pipeline : pipelines()) {
+    INFO(pipeline_json(pipeline));
+    const Capture capture = GlRenderer(*context, scene).draw(pipeline).capture;
+    CHECK(violations(scene, pipeline, capture, "unknown", context->info().subpixel_bits) == 0);
+    if (is_of_known_profile(*context)) CHECK(violations(scene, pipeline, capture, "mesa-llvmpipe-22.3", 8) == 0);
+    if (pipeline.geometry.cull_face != CullFace::back || pipeline.strategy != Strategy::forward_loop) continue;
+    for (const Wrong& wrong : kWrongTangents) {
+      Scene other = scene;
+      Pipeline drawn = pipeline;
+      wrong.change(other, drawn);
+      INFO(wrong.name);
+      CHECK(violations(scene, pipeline, GlRenderer(*context, other).draw(drawn).capture, "unknown",
+                       context->info().subpixel_bits) > 7);
+    }
+    GlRenderer renderer(*context, scene);
+    GlDraw draw;
+    draw.shader_options = renderer.shader_options(draw);
+    for (const auto& wrong : kWrongText) {
+      const GlslShaders shaders = replaced(shaders_of(pipeline, draw.shader_options), wrong.part, wrong.by);
+      draw.shaders = &shaders;
+      INFO(wrong.by);
+      CHECK(violations(scene, pipeline, renderer.draw(pipeline, draw).capture, "unknown",
+                       context->info().subpixel_bits) > 7);
     }
   }
 }

@@ -71,6 +71,23 @@ Pipeline small(Pipeline pipeline, Strategy strategy) {
 
 }  // namespace
 
+TEST_CASE("lavapipe is explained where meshes have tangents and others none, and not where their w is lost") {
+  if (!has_lavapipe()) return;
+  Scene scene = builtin_scene("lecture,lights=3");
+  for (Material& m : scene.materials) m.normal_map.texture = 1, m.double_sided = true;
+  for (size_t i = 0; i < scene.meshes.size(); i += 2)
+    for (size_t c = 0; c < 4; ++c)
+      scene.meshes[i].tangent[c].assign(scene.meshes[i].vertex_count(), c == 3 ? -1.0f : 0.3f + float(c));
+  for (const Strategy strategy : {Strategy::deferred_loop, Strategy::forward_loop})
+    check_lavapipe(scene, small(presets().front().pipeline, strategy));
+  Scene lost = scene;
+  for (Mesh& mesh : lost.meshes)
+    for (float& side : mesh.tangent[3]) side = 1.0f;
+  const Pipeline pipeline = small(presets().front().pipeline, Strategy::deferred_loop);
+  const VulkanFrame frame = drawn_by_vulkan(lost, pipeline, VulkanDriver::software);
+  CHECK(judged(scene, pipeline, frame.capture).violations() > 7);
+}
+
 TEST_CASE("lavapipe is explained under every strategy, with glass and with textures") {
   if (!has_lavapipe()) return;
   const Scene glass = city_of_glass(), textured = builtin_scene("lecture,lights=3");

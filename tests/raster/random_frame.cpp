@@ -152,6 +152,18 @@ void drop_uv_sets(Random& random, Scene& scene) {
   }
 }
 
+void add_tangents(Random& random, Scene& scene) {
+  for (Mesh& mesh : scene.meshes) {
+    if (random() % 4 == 0) continue;
+    const bool one = random() % 3 == 0;  // a tangent for all vertices
+    for (size_t c = 0; c < 4; ++c)
+      for (size_t v = 0; v < mesh.vertex_count(); ++v) {
+        const float value = c == 3 ? (random() % 2 == 0 ? 1.0f : -1.0f) : float(between(random, -2, 2));
+        mesh.tangent[c].push_back(one && v > 0 ? float(mesh.tangent[c][0]) : value);
+      }
+  }
+}
+
 void add_faces(Random& random, Scene& scene) {
   for (Material& m : scene.materials) m.double_sided = random() % 3 != 0;
   for (Instance& i : scene.instances) i.mirrored = random() % 2 == 0;

@@ -23,6 +23,9 @@ void add_uv_sets(Random& random, Scene& scene);
 /// Takes some sets away again: maps read 0 there.
 void drop_uv_sets(Random& random, Scene& scene);
 
+/// Gives some meshes tangents, of any direction and length.
+void add_tangents(Random& random, Scene& scene);
+
 /// Makes some materials double-sided and some instances mirrored.
 void add_faces(Random& random, Scene& scene);
 

@@ -87,6 +87,7 @@ TEST_CASE("Textured frames are the same on every SIMD target, tile size and thre
     if (i % 2 == 1) add_uv_sets(random, scene);
     if (i % 4 == 1) drop_uv_sets(random, scene);
     if (i % 3 == 0) add_faces(random, scene);
+    if (i % 5 < 3) add_tangents(random, scene);
     check_executions_alike(scene, random_pipeline(random));
   }
 }
@@ -105,6 +106,7 @@ TEST_CASE("Textured frames are the same by every fast path and by none") {
     if (i % 4 == 0) scene.materials[0].normal_map.sampler = scene.materials[0].color_map.sampler;
     if (i % 6 == 1) add_uv_sets(random, scene);
     if (i % 3 == 0) add_faces(random, scene);
+    if (i % 5 < 3) add_tangents(random, scene);
     Pipeline pipeline = random_pipeline(random);
     if (i % 5 != 0) pipeline.geometry.depth_func = DepthFunc::less;
     if (i % 3 == 0) pipeline.width *= 3, pipeline.height *= 2;
@@ -123,6 +125,7 @@ TEST_CASE("Textured frames do not depend on which vertex a triangle names first,
     Scene scene = textured_scene(random);
     if (i % 2 == 1) add_uv_sets(random, scene);
     if (i % 4 < 2) add_faces(random, scene);
+    if (i % 3 == 0) add_tangents(random, scene);
     Pipeline pipeline = without_flat(random_pipeline(random));
     pipeline.gbuffer.uv.interpolation = Interpolation::smooth;
     const Execution& execution = all[size_t(i) % all.size()];
@@ -235,4 +238,54 @@ TEST_CASE("A flat normal map gives the interpolated normal itself, another the o
       }
     }
   CHECK(worst < 1e-7);
+}
+
+namespace {
+
+/// Where a mesh is drawn.
+glm::mat4x3 placed(const glm::vec3& x, const glm::vec3& y, const glm::vec3& z) { return {x, y, z, glm::vec3(0.0f)}; }
+
+}  // namespace
+
+TEST_CASE("Tangents along u of a plane bend normals as its texture coordinates do, mirrored, scaled, from both sides") {
+  Corners corners{{{20, 30, 0, 1, {0, 0}}, {220, 20, 0, 2, {1, 0}}, {40, 200, 0, 1.5, {0, 1}}}};
+  int bent = 0;
+  for (const bool mirrored_uv : {false, true})
+    for (const bool double_sided : {false, true})
+      for (const glm::mat4x3& object :
+           {placed({1, 0, 0}, {0, 1, 0}, {0, 0, 1}), placed({-1, 0, 0}, {0, 1, 0}, {0, 0, 1}),
+            placed({0, -1, 0}, {1, 0, 0}, {0, 0, -1}), placed({0.7f, 0.2f, 0}, {-0.3f, 0.9f, 0}, {0, 0, 0.5f})}) {
+        Scene scene = window_scene({corners});
+        scene.instances[0].world_from_object = object;
+        Mesh& mesh = scene.meshes[0];
+        mesh.normal = {{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}}};
+        if (mirrored_uv)
+          for (float& u : mesh.uv[0]) u = -u;
+        Texture texture{"", TextureFormat::rgba32f, {{1, 1, {}}}};
+        append_texel(texture.format, {0.7f, 0.2f, 0.9f, 1.0f}, texture.levels[0].bytes);
+        scene.textures = {texture};
+        scene.materials[0].normal_map.texture = 0;
+        scene.materials[0].double_sided = double_sided;
+        const Planes of_triangle = drawn(scene, window_pipeline(), {});
+        // u and v of the plane's own x and y: Cramer's rule, and the cross product's z is the side.
+        const double x1 = double(mesh.position[0][1]) - double(mesh.position[0][0]),
+                     y1 = double(mesh.position[1][1]) - double(mesh.position[1][0]),
+                     x2 = double(mesh.position[0][2]) - double(mesh.position[0][0]),
+                     y2 = double(mesh.position[1][2]) - double(mesh.position[1][0]), u1 = double(mesh.uv[0][1]);
+        const float x = float(x1 / u1), y = float(y1 / u1), w = x1 / u1 * y2 - y1 / u1 * x2 < 0 ? -1.0f : 1.0f;
+        mesh.tangent = {{{x, x, x}, {y, y, y}, {0, 0, 0}, {w, w, w}}};
+        const Planes of_vertices = drawn(scene, window_pipeline(), {});
+        CHECK(of_vertices.object == of_triangle.object);
+        double worst = 0.0;
+        for (size_t i = 0; i < of_triangle.normal.size(); ++i)
+          for (size_t c = 0; c < 3; ++c)
+            if (of_triangle.object[i] != 0)
+              worst = std::max(worst, std::fabs(double(of_triangle.normal[i][c]) - double(of_vertices.normal[i][c])));
+        CHECK(worst < 2e-7);
+        Scene wrong = scene;
+        for (float& side : wrong.meshes[0].tangent[3]) side = -side;
+        const Planes other = drawn(wrong, window_pipeline(), {});
+        bent += of_vertices.covered_count() > 1000 && other.normal != of_vertices.normal ? 1 : 0;
+      }
+  CHECK(bent > 8);  // others are culled
 }

@@ -36,7 +36,7 @@ def read_scene(folder):
         return np.memmap(path, np.dtype(place["type"]).newbyteorder("<"), "r", place["offset"], shape)
 
     for mesh in scene["meshes"]:
-        for stream in ("position", "normal", "color", "triangles"):
+        for stream in ("position", "normal", "color", "tangent", "triangles"):
             mesh[stream] = array(mesh[stream])
         mesh["uv"] = [array(uv) for uv in mesh["uv"]]
     for texture in scene["textures"]:

@@ -23,7 +23,8 @@ def unit_rows(v):
 
 
 class Geometry:
-    """The triangles of a scene. Attributes of corners: position (3), normal (3), colour (4), then (u, v) of each set."""
+    """The triangles of a scene. Attributes of corners: position (3), normal (3), colour (4), then (u, v) of each set, and
+    the tangent (3) and its w where the mesh has any."""
 
     def __init__(self, scene):
         self.scene, self.window = scene, tri.Window(scene["viewport"], scene["pipeline"]["geometry"])
@@ -78,6 +79,9 @@ class Geometry:
             turned = unit_rows(turned)
         color = np.ones((3, 4), f32) if mesh["color"] is None else mesh["color"][:, v].T
         sets = [np.zeros((3, 2), f32) if uv is None else uv[:, v].T for uv in mesh["uv"]]
+        if mesh["tangent"] is not None:
+            x, y, z, w = mesh["tangent"][:, v]
+            sets.append(np.stack([(m[0] * x + m[1] * y) + m[2] * z for m in world] + [w], axis=1))
         return [[float(a) for a in row] for row in np.concatenate([position, turned, color] + sets, axis=1)]
 
     def fragments(self, sample):
@@ -183,6 +187,8 @@ def normal_of(scene, f):
 
 def bent(scene, f, normal, texel, scale):
     """Section 13, normal map: f64 of the floats, on the triangle as it was submitted."""
+    if scene["meshes"][scene["objects"][f.object]["mesh"]]["tangent"] is not None:
+        return bent_at(normal, vertex_tangent(scene, f), texel, scale)
     first = 10 + 2 * material_of(scene, f)["maps"]["normal"]["uv_set"]
     corners = [c[:3] + c[first : first + 2] for c in scene["geometry"].attributes(f.object, f.triangle)]
     least = corners.index(min(corners))
@@ -190,17 +196,44 @@ def bent(scene, f, normal, texel, scale):
     e1, e2 = [q[k] - p[k] for k in range(3)], [s[k] - p[k] for k in range(3)]
     a1, a2, b1, b2 = q[3] - p[3], s[3] - p[3], q[4] - p[4], s[4] - p[4]
     area = a1 * b2 - a2 * b1
-    n = [float(v) for v in normal]
-    nn = host.dot(n, n)
-    if area == 0 or nn == 0:
+    if area == 0:
         return normal
     sign = -1 if area < 0 else 1
     u = [sign * (e1[k] * b2 - e2[k] * b1) for k in range(3)]
     v = [sign * (e2[k] * a1 - e1[k] * a2) for k in range(3)]
+    return bent_at(normal, (u, lambda c: host.dot(c, v) < 0), texel, scale)
+
+
+def vertex_tangent(scene, f):
+    """U of vertices' tangents, and whether B is turned: by the corners' w, a matrix that mirrors, and a back face."""
+    o = scene["objects"][f.object]
+    first = 10 + 2 * len(scene["meshes"][o["mesh"]]["uv"])
+    interpolation = scene["pipeline"]["gbuffer"]["normal"]["interpolation"]
+    u = [float(f.attribute(first + k, interpolation)) for k in range(3)]
+    w = sum(corner[first + 3] for corner in scene["geometry"].attributes(f.object, f.triangle))
+    columns = [[float(row[k]) for row in floats(o["world_from_object"])] for k in range(3)]
+    turned = w < 0
+    if host.dot(columns[0], host.cross(columns[1], columns[2])) < 0:
+        turned = not turned
+    if scene["materials"][o["material"]]["double_sided"] and is_back(scene, f):
+        turned = not turned
+    return u, lambda c: turned
+
+
+def bent_at(normal, frame, texel, scale):
+    """`frame`: U, and whether a C is against V."""
+    u, against = frame
+    n = [float(v) for v in normal]
+    nn = host.dot(n, n)
+    if nn == 0:
+        return normal
     along = host.dot(n, u) / nn
-    t = host.unit([u[k] - n[k] * along for k in range(3)])
+    t = [u[k] - n[k] * along for k in range(3)]
+    if not host.dot(t, t) > 0:
+        return normal
+    t = host.unit(t)
     c = host.cross(n, t)
-    turn = (-1 if host.dot(c, v) < 0 else 1) * (1 / math.sqrt(nn))
+    turn = (-1 if against(c) else 1) * (1 / math.sqrt(nn))
     x, y, z = (2 * float(texel[0]) - 1) * scale, (2 * float(texel[1]) - 1) * scale, 2 * float(texel[2]) - 1
     return np.array([(t[k] * x + (c[k] * turn) * y) + n[k] * z for k in range(3)], np.float64).astype(f32)
 

@@ -167,7 +167,7 @@ TEST_CASE("what glTF's materials have moves the hash of scenes that say it, and 
   CHECK(changed([](Scene& s) { s.materials[0].emission_map = s.materials[0].color_map; }));
   CHECK(changed([](Scene& s) { s.materials[0].color_map.uv_set = 1; }));
   CHECK(!changed([](Scene& s) { s.materials[0].normal_map.uv_set = 1; }));  // of no texture
-  scene.meshes.push_back({"", {{{0.0f}, {0.0f}, {0.0f}}}, {{{0.0f}, {0.0f}, {1.0f}}}, {}, {}, {}, {}});
+  scene.meshes.push_back({"", {{{0.0f}, {0.0f}, {0.0f}}}, {{{0.0f}, {0.0f}, {1.0f}}}, {}, {}, {}, {}, {}});
   std::string hashes[3] = {scene_hash(scene)};
   for (size_t sets = 1; sets < 3; ++sets) {
     scene.meshes[0].more_uv.assign(sets, {});

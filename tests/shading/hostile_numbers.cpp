@@ -200,6 +200,21 @@ constexpr Field kFields[] = {
        m.color_map.uv_set = 1, m.normal_map.uv_set = 2;
        m.double_sided = true;
      }},
+    {"mesh.tangent",
+     [](Frame32& f, float x) {
+       map_floor(f);
+       Mesh& floor = f.scene.meshes[1];
+       for (size_t c = 0; c < 4; ++c) floor.tangent[c].assign(floor.vertex_count(), 1.0f);
+       floor.tangent[0][0] = floor.tangent[2][1] = x;
+       f.scene.materials[1].normal_map = f.scene.materials[1].color_map;
+     }},
+    {"mesh.tangent.w",
+     [](Frame32& f, float x) {
+       map_floor(f);
+       Mesh& floor = f.scene.meshes[1];
+       for (size_t c = 0; c < 4; ++c) floor.tangent[c].assign(floor.vertex_count(), c == 3 ? x : 1.0f);
+       f.scene.materials[1].normal_map = f.scene.materials[1].color_map;
+     }},
     {"texel",
      [](Frame32& f, float x) {
        map_floor(f);

@@ -23,10 +23,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// What the maps of a triangle's pixels read: edge functions at the tile's first sample and their changes to the next
 /// pixels, 1 / w, the changes of l_1, l_2 and l_0 + l_1 + l_2, differences of texture coordinates, and the tangent
-/// frame; of a triangle with one normal also its bump frame.
+/// frame; of a triangle with one normal also its bump frame; of one with vertices' tangents these, in canonical order,
+/// and PixelTangents::side.
 struct alignas(64) MappedTriangle {
   enum Value { kEdge, kEdgeX = 3, kEdgeY = 6, kInverseW = 9, kAlongX = 12, kAlongY = 15, kUv1 = 18, kUv2 = 20 };
-  enum Frame { kFrame = 22, kBumpFrame = 28, kOneNormal = 34, kValues = 40 };
+  enum Frame { kFrame = 22, kBumpFrame = 28, kOneNormal = 34, kTangents = 35, kSide = 44, kValues = 48 };
   double value[kValues];
 };
 
@@ -51,8 +52,9 @@ struct SeveralTriangles {
 };
 
 /// Sets the derivatives of texture coordinates: set_uv_slopes() of interpolate-inl.h from the triangles' values.
+/// Returns the weights.
 template <class Triangle>
-HWY_INLINE void set_slopes(const Triangle& triangle, V64 column, V64 row, UvPoint& uv) {
+HWY_INLINE PerspectiveWeights set_slopes(const Triangle& triangle, V64 column, V64 row, UvPoint& uv) {
   V64 e[3], u[3];
   for (int k = 0; k < 3; ++k) {
     e[k] = hn::Add(hn::Add(triangle(MappedTriangle::kEdge + k), hn::Mul(column, triangle(MappedTriangle::kEdgeX + k))),
@@ -69,15 +71,33 @@ HWY_INLINE void set_slopes(const Triangle& triangle, V64 column, V64 row, UvPoin
     uv.x[c] = hn::Add(hn::Mul(x[0], to_1), hn::Mul(x[1], to_2));
     uv.y[c] = hn::Add(hn::Mul(y[0], to_1), hn::Mul(y[1], to_2));
   }
+  return w;
 }
 
+/// The interpolated tangents of triangles that have any.
 template <class Triangle>
-HWY_INLINE BumpFrame bump_frame_at(const Triangle& triangle, const Vector3& normal) {
+HWY_INLINE Vector3 tangents_at(const Triangle& triangle, const PerspectiveWeights& w) {
+  const D64 d;
+  V64 u[3];
+  for (int c = 0; c < 3; ++c) {
+    const V64 a0 = triangle(MappedTriangle::kTangents + c), a1 = triangle(MappedTriangle::kTangents + 3 + c),
+              a2 = triangle(MappedTriangle::kTangents + 6 + c);
+    const V64 plane = plane_value(w.b1, w.b2, a0, hn::Sub(a1, a0), hn::Sub(a2, a0));
+    u[c] = hn::PromoteTo(d, hn::DemoteTo(D32(), within_corners(plane, a0, a1, a2)));
+  }
+  return {u[0], u[1], u[2]};
+}
+
+/// `tangents`: as interpolated; null where no mesh has any.
+template <class Triangle>
+HWY_INLINE BumpFrame bump_frame_at(const Triangle& triangle, const Vector3* tangents, const Vector3& normal) {
   const auto vector = [&](int k) { return Vector3{triangle(k), triangle(k + 1), triangle(k + 2)}; };
   const auto ready = hn::Gt(triangle(MappedTriangle::kOneNormal), hn::Zero(D64()));
   if (hn::AllTrue(D64(), ready))
     return {vector(MappedTriangle::kBumpFrame), vector(MappedTriangle::kBumpFrame + 3), ready};
-  return bump_frame({vector(MappedTriangle::kFrame), vector(MappedTriangle::kFrame + 3)}, normal);
+  const TangentFrame frame{vector(MappedTriangle::kFrame), vector(MappedTriangle::kFrame + 3), hn::Zero(D64())};
+  if (tangents == nullptr) return bump_frame(frame, normal);
+  return bump_frame(with_tangents(frame, {*tangents, triangle(MappedTriangle::kSide)}), normal);
 }
 
 /// Vectors of pixels whose maps are applied at once: one vector alone would wait for its own quotients and sums. A
@@ -95,13 +115,17 @@ class MapBatch {
       set_triangles(triangles + part * kHalf, bits);
       UvPoint& uv = uv_[count_];
       const V64 column = where.column(part), row = where.row(part);
-      with_triangles(count_, [&](const auto& triangle) { set_slopes(triangle, column, row, uv); });
+      with_triangles(count_, [&](const auto& triangle) {
+        const PerspectiveWeights w = set_slopes(triangle, column, row, uv);
+        if (maps_.tangents) tangent_[count_] = tangents_at(triangle, w);
+      });
       add(where.at + part * kHalf, lane_mask(D64(), bits));
     }
   }
 
   /// Adds the pixels `mine` of a piece of a clipped triangle, in a vector that begins at pixel `first`.
-  HWY_INLINE void add_piece(int first, M64 mine, const UvPoint& slopes, int64_t triangle) {
+  HWY_INLINE void add_piece(int first, M64 mine, const UvPoint& slopes, const Vector3& tangent, int64_t triangle) {
+    tangent_[count_] = tangent;
     kind_[count_] = {triangle, triangle};
     uv_[count_] = slopes;
     add(first, mine);
@@ -116,7 +140,8 @@ class MapBatch {
     }
     const auto frames = [&](int h, int, const Vector3& normal) {
       BumpFrame frame;
-      with_triangles(h, [&](const auto& triangle) { frame = bump_frame_at(triangle, normal); });
+      const Vector3* const tangents = maps_.tangents ? tangent_ + h : nullptr;
+      with_triangles(h, [&](const auto& triangle) { frame = bump_frame_at(triangle, tangents, normal); });
       return frame;
     };
     apply_maps<kVectors>(maps_, uv_, owned_, pixel_, frames, out_);
@@ -172,7 +197,8 @@ class MapBatch {
   alignas(64) int64_t at_[kVectors][kHalf] = {};  ///< the triangle of each lane, where there are many
   M64 owned_[kVectors] = {};
   UvPoint uv_[kVectors] = {};
-  int pixel_[kVectors] = {};  ///< the first
+  Vector3 tangent_[kVectors] = {};  ///< where meshes have any
+  int pixel_[kVectors] = {};        ///< the first
 };
 
 }  // namespace trueshade::HWY_NAMESPACE

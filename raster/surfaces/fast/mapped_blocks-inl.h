@@ -124,11 +124,18 @@ struct MappedBlocks {
       value[MappedTriangle::kUv2 + k] = set_up.to_2[kUvValue + k];
     }
     if (!maps_of(triangle).normal) return;
-    const TangentFrame frame = frame_of(triangle);
+    const bool turned = in.view.faces.any_double_sided() && is_turned_whole(in.view, seen, triangle);
+    const bool of_vertices = in.view.maps.tangents && set_tangents(triangle, turned, value);
+    TangentFrame frame = frame_of(triangle);
     put(frame.u, value + MappedTriangle::kFrame), put(frame.v, value + MappedTriangle::kFrame + 3);
     constexpr uint32_t kNormalBits = 7u << kNormalValue;
     if ((set_up.constant & kNormalBits) != kNormalBits) return;
-    const bool turned = in.view.faces.any_double_sided() && is_turned_whole(in.view, seen, triangle);
+    const double* const tangent = value + MappedTriangle::kTangents;
+    if (of_vertices) {
+      if (!std::equal(tangent, tangent + 3, tangent + 3) || !std::equal(tangent, tangent + 3, tangent + 6)) return;
+      const auto same = [&](int c) { return hn::Set(D64(), tangent[c] + 0.0); };
+      frame = with_tangents(frame, {{same(0), same(1), same(2)}, hn::Set(D64(), value[MappedTriangle::kSide])});
+    }
     V32 normal[3];
     for (int c = 0; c < 3; ++c) {
       const float straight = float(set_up.a0[kNormalValue + c]) + 0.0f;
@@ -140,6 +147,19 @@ struct MappedBlocks {
         bump_frame(frame, {hn::PromoteTo(d, normal[0]), hn::PromoteTo(d, normal[1]), hn::PromoteTo(d, normal[2])});
     put(bump.t, value + MappedTriangle::kBumpFrame), put(bump.b, value + MappedTriangle::kBumpFrame + 3);
     value[MappedTriangle::kOneNormal] = hn::AllTrue(D64(), bump.bends) ? 1.0 : 0.0;
+  }
+
+  /// Sets the tangents of a triangle's corners; false where its mesh has none.
+  bool set_tangents(SeenTriangle triangle, bool turned, double* value) const {
+    const CanonicalVertices of(seen, triangle);
+    double side = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const float* const tangent = vertex_at(seen.tangent.data(), of.vertex[k]).value;
+      for (int c = 0; c < 3; ++c) value[MappedTriangle::kTangents + 3 * k + c] = double(tangent[c]);
+      side += double(tangent[3]);
+    }
+    value[MappedTriangle::kSide] = turned ? -side : side;
+    return side != 0.0;
   }
 
   /// The same in all lanes.
@@ -160,13 +180,16 @@ struct MappedBlocks {
     const uint32_t id = (cluster.position + 1) << 8 | triangle.index % kTriangleStep << 1 | 1;
     if (!has_pieces(mapped.piece, id)) {
       const SubmittedVertices of(seen, triangle);
-      const StreamGroup coordinates{kUv, 2, {}};
-      float value[kStreams][3] = {};
-      for (int k = 0; k < 3; ++k)
+      const StreamGroup read[] = {{kUv, 2, {}}, {kVertexTangent, 4, {}}};
+      float value[kAllStreams][3] = {};
+      for (int k = 0; k < 3; ++k) {
         for (int c = 0; c < 2; ++c) value[kUv + c][k] = vertex_at(seen.record.data(), of.vertex[k]).value[kUvValue + c];
-      add_clipped_pieces(in, rect, &coordinates, 1, id, value, mapped.piece);
+        for (int c = 0; c < 4 && in.view.maps.tangents; ++c)
+          value[kVertexTangent + c][k] = vertex_at(seen.tangent.data(), of.vertex[k]).value[c];
+      }
+      add_clipped_pieces(in, rect, read, in.view.maps.tangents ? 2 : 1, id, value, mapped.piece);
     }
-    const int64_t frame = clipped_frame(triangle);
+    const int64_t frame = clipped_frame(triangle, id);
     const BlockPosition where(block, blocks);
     for (int h = 0; h < kHalves; ++h) {
       const int at = where.at + h * kHalf;
@@ -180,15 +203,17 @@ struct MappedBlocks {
         const uint32_t owned = undecided & lane_bits(d, piece.covers(e));
         if (owned == 0) continue;
         UvPoint slopes{};
-        set_piece_slopes(piece, piece.weights(e), 0, in.view.maps.uv_how, slopes);
-        batch.add_piece(at, lane_mask(d, owned), slopes, frame);
+        const Barycentrics w = piece.weights(e);
+        set_piece_slopes(piece, w, 0, in.view.maps.uv_how, slopes);
+        const Vector3 tangent = in.view.maps.tangents ? piece_tangents(piece, w, Interpolation::smooth).u : Vector3{};
+        batch.add_piece(at, lane_mask(d, owned), slopes, tangent, frame);
         undecided &= ~owned;
       }
     }
   }
 
-  /// Where the values of a clipped triangle begin, of which the frame alone is set.
-  int64_t clipped_frame(SeenTriangle triangle) {
+  /// Where the values of a clipped triangle begin, of which the frame alone is set and the side of vertices' tangents.
+  int64_t clipped_frame(SeenTriangle triangle, uint32_t id) {
     uint16_t& index = seen.first_part[triangle.index];
     if (index == VisibleTriangles::kNoPart) {
       index = uint16_t(mapped.triangle.size());
@@ -197,6 +222,8 @@ struct MappedBlocks {
       const TangentFrame frame = frame_of(triangle);
       put(frame.u, value + MappedTriangle::kFrame), put(frame.v, value + MappedTriangle::kFrame + 3);
       value[MappedTriangle::kOneNormal] = 0.0;
+      for (const ClippedPiece& piece : mapped.piece)
+        if (piece.id == id) value[MappedTriangle::kSide] = piece.side;
     }
     return int64_t(index) * MappedTriangle::kValues;
   }

@@ -45,7 +45,7 @@ bool resolve_by_blocks(const SurfaceTask& task) {
   const std::vector<Mesh>& meshes = in.scene.meshes;
   const bool colored = std::any_of(meshes.begin(), meshes.end(), [](const Mesh& mesh) { return mesh.has_color(); });
   const bool textured = in.view.maps.textured();
-  const WantedStreams wanted{task.reads_uv, colored, task.planes.unit_normals};
+  const WantedStreams wanted{task.reads_uv, colored, in.view.maps.tangents, task.planes.unit_normals};
   find_triangles(in, task.rect, task.visible, seen, out);
   if (out.covered_pixels == 0) return true;
   if (reads_more_uv(in, seen)) return false;

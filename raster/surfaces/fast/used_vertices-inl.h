@@ -28,9 +28,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 inline constexpr int kRecordStream[2][kStreams] = {{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, kUv, kUv + 1},
                                                    {0, 1, 2, 3, 4, 5, kUv, kUv + 1, 6, 7, 8, 9}};
 
-/// Attributes that are interpolated beside position and normal, and where normals are made unit length.
+/// Attributes that are interpolated beside position and normal, and where normals are made unit length. Tangents lie in
+/// records of their own.
 struct WantedStreams {
-  bool uv, color;
+  bool uv, color, tangents;
   UnitNormals unit_normals;
 
   const int* order() const { return kRecordStream[uv ? 1 : 0]; }
@@ -43,6 +44,7 @@ struct WantedStreams {
 struct UsedVertices {
   static constexpr int kEnough = 128;
   alignas(64) float stream[kStreams][kEnough + kClusterVertices + 16] = {};
+  alignas(64) float tangent[4][kEnough + kClusterVertices + 16] = {};
   int count = 0;
   const ClusterDraw* draw = nullptr;  ///< of the first cluster
   uint32_t first = 0;                 ///< index of the first vertex in VisibleTriangles
@@ -61,6 +63,8 @@ struct UsedVertices {
     const uint32_t* const vertex = &mesh.vertex[cluster.first_vertex];
     for (size_t c = 0; c < 2 && wanted.uv; ++c)
       gather(in.scene.meshes[object].uv[c], vertex, seen.used, stream[size_t(kUv) + c] + count);
+    for (size_t c = 0; c < 4 && wanted.tangents; ++c)
+      gather(in.scene.meshes[object].tangent[c], vertex, seen.used, tangent[c] + count);
     const float* position[3];
     for (size_t c = 0; c < 3; ++c) position[c] = mesh.position[c].data() + cluster.first_vertex;
     const VertexLine* const lines = surface_of(mesh, cluster.first_vertex);
@@ -136,6 +140,7 @@ inline void transform_used(const TileDraws& in, const TileRect& rect, WantedStre
   const DWF d;
   const int lanes = int(hn::Lanes(d));
   const uint32_t instance = used.draw->instance;
+  const bool mirrored = wanted.tangents && mirrors(in.scene.instances[instance].world_from_object);
   used.fill_up(in.scene.meshes[in.scene.instances[instance].mesh], wanted);
   position_used(in, rect, used, work.position.data() + used.first);
   alignas(64) float half[2][4 * hn::MaxLanes(DWF())];
@@ -151,6 +156,11 @@ inline void transform_used(const TileDraws& in, const TileRect& rect, WantedStre
     for (int k = 0; k < lanes; ++k)
       for (int h = 0; h < 2; ++h) std::memcpy(record[k].value + 4 * h, half[h] + 4 * k, 16);
     if (wanted.rest()) hn::StoreInterleaved4(value(8), value(9), value(10), value(11), d, work.rest[at].value);
+    if (!wanted.tangents) continue;
+    VWF object[4], tangent[4];
+    for (int c = 0; c < 4; ++c) object[c] = hn::Load(d, used.tangent[c] + i);
+    tangents_to_world(in.view.instances[instance], mirrored, object, tangent);
+    hn::StoreInterleaved4(tangent[0], tangent[1], tangent[2], tangent[3], d, work.tangent[at].value);
   }
   used.count = 0;
 }

@@ -247,6 +247,7 @@ inline void transform_seen(const TileDraws& in, const TileRect& rect, WantedStre
     work.record.resize(2 * vertices + kSlack);
   }
   if (wanted.rest() && work.rest.size() < vertices + kSlack) work.rest.resize(2 * vertices + kSlack);
+  if (wanted.tangents && work.tangent.size() < vertices + kSlack) work.tangent.resize(2 * vertices + kSlack);
   UsedVertices some;
   constexpr uint32_t kAhead = 6;
   for (uint32_t slot = 1; slot < work.clusters; ++slot) {

@@ -29,6 +29,10 @@ struct alignas(16) VertexRest {
   static constexpr int kValues = 4;
   float value[kValues];
 };
+/// The tangent of a vertex: the streams from kVertexTangent on.
+struct alignas(16) VertexTangent {
+  float value[4];
+};
 
 /// Vertices are named by four times their index, so that the address of each of their records is one addition away.
 /// There must be records: without any, `first` is null, and there is nothing that a reference could name.
@@ -80,6 +84,7 @@ struct VisibleTriangles {
   std::vector<VertexPosition> position;
   std::vector<VertexRecord> record;
   std::vector<VertexRest> rest;
+  std::vector<VertexTangent> tangent;  ///< where meshes have any that are read
 
   uint16_t covered[kMaxTilePixels / kBlockPixels];  ///< of each block, a bit a pixel
   SeenPart part[kMaxTilePixels];                    ///< of blocks that see few triangles

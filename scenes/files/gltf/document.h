@@ -139,7 +139,7 @@ struct MaterialSource {
 
 /// Attributes that are read, by accessor.
 struct Attributes {
-  uint32_t position = kNone, normal = kNone, color = kNone;
+  uint32_t position = kNone, normal = kNone, tangent = kNone, color = kNone;
   std::vector<uint32_t> uv;               ///< sets from 0 on, kNone where one is not there
   std::vector<uint32_t> joints, weights;  ///< sets from 0 on
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scenes/add_normals.h"
+#include "scenes/files/gltf/mikk_tangents.h"
 
 namespace trueshade::gltf {
 namespace {
@@ -84,11 +85,22 @@ void read_uv_sets(Accessors& accessors, const Attributes& from, size_t count, Me
     read_streams(accessors, from.uv_set(set), set == 0 ? mesh.uv : mesh.more_uv[set - 1]);
 }
 
-void read_targets(Accessors& accessors, const Primitive& primitive, RestShape& shape) {
+bool reads_tangents(const Primitive& primitive, Wanted wanted) {
+  return wanted.tangents && primitive.attributes.tangent != kNone && primitive.attributes.normal != kNone;
+}
+
+/// The sign of w is what counts.
+void read_tangents(Accessors& accessors, const Primitive& primitive, Mesh& mesh) {
+  read_streams(accessors, primitive.attributes.tangent, mesh.tangent);
+  for (float& side : mesh.tangent[3]) side = side < 0.0f ? -1.0f : 1.0f;
+}
+
+void read_targets(Accessors& accessors, const Primitive& primitive, bool tangents, RestShape& shape) {
   for (const Attributes& from : primitive.targets) {
     MorphTarget& target = shape.targets.emplace_back();
     read_streams(accessors, from.position, target.position);
     read_streams(accessors, from.normal, target.normal);
+    if (tangents) read_streams(accessors, from.tangent, target.tangent);
   }
 }
 
@@ -112,15 +124,20 @@ void read_influences(Accessors& accessors, const Attributes& attributes, size_t 
 
 }  // namespace
 
-void plan_geometry(Accessors& accessors, const Primitive& primitive, size_t uv_sets) {
+void plan_geometry(Accessors& accessors, const Primitive& primitive, Wanted wanted) {
   const auto plan = [&accessors](uint32_t accessor, uint32_t most) {
     if (accessor != kNone) accessors.plan(accessor, std::min(most, components_of(accessors.at(accessor).shape)));
   };
   const Attributes& from = primitive.attributes;
   plan(from.position, 3), plan(from.normal, 3);
-  for (size_t set = 0; set < uv_sets; ++set) plan(from.uv_set(set), 2);
+  for (size_t set = 0; set < wanted.uv_sets; ++set) plan(from.uv_set(set), 2);
   plan(from.color, 4);
-  for (const Attributes& target : primitive.targets) plan(target.position, 3), plan(target.normal, 3);
+  const bool tangents = reads_tangents(primitive, wanted);
+  if (tangents) plan(from.tangent, 4);
+  for (const Attributes& target : primitive.targets) {
+    plan(target.position, 3), plan(target.normal, 3);
+    if (tangents) plan(target.tangent, 3);
+  }
   for (size_t set = 0; set < from.joints.size(); ++set) plan(from.joints[set], 4), plan(from.weights[set], 4);
   plan(primitive.indices, 1);
 }
@@ -145,24 +162,40 @@ void drop_unused_vertices(Mesh& mesh) {
   const auto keep = [&kept](auto& streams) {
     for (FloatStream& stream : streams) take_apart(stream, kept);
   };
-  keep(mesh.position), keep(mesh.normal), keep(mesh.uv), keep(mesh.color);
+  keep(mesh.position), keep(mesh.normal), keep(mesh.uv), keep(mesh.color), keep(mesh.tangent);
   for (auto& set : mesh.more_uv) keep(set);
   for (uint32_t& index : mesh.indices) index = place[index];
 }
 
-Geometry read_geometry(Accessors& accessors, const Primitive& primitive, size_t uv_sets, const std::string& pointer) {
+void add_tangents(const UvSource& normal_map, Geometry& geometry) {
+  Mesh& mesh = geometry.mesh;
+  RestShape& shape = geometry.shape;
+  const std::vector<uint32_t> from = add_mikk_tangents(baked(mesh.uv_set(normal_map.set), normal_map.transform), mesh);
+  if (shape.targets.empty() && shape.influences == 0) return;
+  shape.position = mesh.position, shape.normal = mesh.normal;
+  std::copy_n(mesh.tangent.begin(), 3, shape.tangent.begin());
+  for (MorphTarget& target : shape.targets)
+    for (auto* streams : {&target.position, &target.normal})
+      for (FloatStream& stream : *streams) take_apart(stream, from);
+  take_apart(shape.joints, from, shape.influences);
+  take_apart(shape.weights, from, shape.influences);
+}
+
+Geometry read_geometry(Accessors& accessors, const Primitive& primitive, Wanted wanted, const std::string& pointer) {
   Geometry out;
   const Attributes& from = primitive.attributes;
   Mesh& mesh = out.mesh;
   RestShape& shape = out.shape;
   read_streams(accessors, from.position, mesh.position);
   read_streams(accessors, from.normal, mesh.normal);
-  read_uv_sets(accessors, from, uv_sets, mesh);
+  read_uv_sets(accessors, from, wanted.uv_sets, mesh);
   read_streams(accessors, from.color, mesh.color);
   const size_t vertices = mesh.vertex_count();
   if (mesh.has_color() && mesh.color[3].empty()) mesh.color[3].assign(vertices, 1.0f);
   check_colors(mesh, accessors.document(), from.color);
-  read_targets(accessors, primitive, shape);
+  const bool tangents = reads_tangents(primitive, wanted);
+  if (tangents) read_tangents(accessors, primitive, mesh);
+  read_targets(accessors, primitive, tangents, shape);
   if (!from.joints.empty()) read_influences(accessors, from, vertices, shape);
   mesh.indices =
       triangles_of(accessors, read_corners(accessors, primitive, vertices, pointer), primitive.mode, pointer);
@@ -176,7 +209,10 @@ Geometry read_geometry(Accessors& accessors, const Primitive& primitive, size_t 
     take_apart(shape.weights, mesh.indices, shape.influences);
     add_normals(mesh, MissingNormals::flat);
   }
-  if (!shape.targets.empty() || shape.influences > 0) shape.position = mesh.position, shape.normal = mesh.normal;
+  if (!shape.targets.empty() || shape.influences > 0) {
+    shape.position = mesh.position, shape.normal = mesh.normal;
+    std::copy_n(mesh.tangent.begin(), 3, shape.tangent.begin());
+  }
   return out;
 }
 

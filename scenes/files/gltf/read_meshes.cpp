@@ -63,6 +63,7 @@ void assign(const json::Node& node, const Allowed& row, uint32_t set, uint32_t a
   };
   if (row.name == "POSITION") out.position = accessor;
   if (row.name == "NORMAL") out.normal = accessor;
+  if (row.name == "TANGENT") out.tangent = accessor;
   if (row.name == "COLOR_" && set == 0) out.color = accessor;
   if (set >= 16) node.fail("the number of an attribute is over 15", "a smaller one");
   if (row.name == "TEXCOORD_") append(out.uv);

@@ -1,6 +1,7 @@
 #include "scenes/files/gltf/scene_maker.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "core/error.h"
 #include "core/memory_cap.h"
@@ -14,10 +15,11 @@
 namespace trueshade::gltf {
 
 SceneMaker::SceneMaker(Buffers& buffers, const SceneFolder& folder, const SceneLimits& limits,
-                       const ImageDecoder& decode, const SceneParts& parts)
+                       const ImageDecoder& decode, const SceneParts& parts, bool keeps_tangents)
     : document_(buffers.document()),
       limits_(limits),
       asked_(parts),
+      keeps_tangents_(keeps_tangents),
       faults_(document_.faults),
       accessors_(buffers, limits),
       pictures_(buffers, folder, limits, decode, faults_, scene_),
@@ -179,17 +181,29 @@ void SceneMaker::add_primitive(uint32_t place, const NodeSource& node, size_t in
   }
 }
 
-/// Sets that are read: the first two whether maps read them or not, and up to the last that a map reads.
-size_t SceneMaker::uv_sets_of(const Primitive& primitive) const {
+/// Sets that are read: the first two whether maps read them or not, and up to the last that a map reads. Tangents are
+/// read for normal maps.
+Wanted SceneMaker::wanted_of(const Primitive& primitive) const {
   size_t sets = 2;
+  bool tangents = false;
   if (primitive.material != kNone) {
     const MaterialSource& m = document_.materials[primitive.material];
+    tangents = keeps_tangents_ && m.normal_map.texture != kNone;
     for (const TextureInfo* map :
          {&m.base_color_map, &m.metallic_roughness_map, &m.normal_map, &m.occlusion_map, &m.emission_map})
       if (map->texture != kNone) sets = std::max(sets, size_t(map->uv.set) + 1);
   }
-  return std::min(sets, primitive.attributes.uv.size());
+  return {std::min(sets, primitive.attributes.uv.size()), tangents};
 }
+
+namespace {
+
+/// Whether a primitive's normal map asks for tangents that the file does not have.
+bool makes_tangents(const Primitive& primitive, const Wanted& wanted) {
+  return wanted.tangents && (primitive.attributes.tangent == kNone || primitive.attributes.normal == kNone);
+}
+
+}  // namespace
 
 /// Finds what primitives share, and adds up what reading all of them takes.
 void SceneMaker::plan_primitives() {
@@ -198,16 +212,26 @@ void SceneMaker::plan_primitives() {
       const Primitive& p = document_.meshes[mesh].primitives[i];
       const Attributes& a = p.attributes;
       if (!has_triangles(p.mode) || a.position == kNone) continue;
-      const size_t uv_sets = uv_sets_of(p);
-      std::vector<uint32_t> key{a.position, a.normal, a.color, p.indices, uint32_t(p.mode), uint32_t(uv_sets)};
-      key.insert(key.end(), a.uv.begin(), a.uv.begin() + ptrdiff_t(uv_sets));
+      const Wanted wanted = wanted_of(p);
+      std::vector<uint32_t> key{a.position, a.normal, a.color, p.indices, uint32_t(p.mode), uint32_t(wanted.uv_sets)};
+      key.insert(key.end(), a.uv.begin(), a.uv.begin() + ptrdiff_t(wanted.uv_sets));
+      key.push_back(wanted.tangents ? a.tangent : kNone);
+      key.push_back(makes_tangents(p, wanted) ? 1 : 0);
+      if (key.back() == 1) {
+        const UvSource& along = document_.materials[p.material].normal_map.uv;
+        key.push_back(along.set);
+        for (const float x : {along.transform.offset.x, along.transform.offset.y, along.transform.scale.x,
+                              along.transform.scale.y, along.transform.rotation_rad})
+          key.push_back(std::bit_cast<uint32_t>(x));
+      }
       key.insert(key.end(), a.joints.begin(), a.joints.end());
       key.insert(key.end(), a.weights.begin(), a.weights.end());
       key.push_back(uint32_t(a.joints.size()));
-      for (const Attributes& target : p.targets) key.insert(key.end(), {target.position, target.normal});
+      for (const Attributes& target : p.targets)
+        key.insert(key.end(), {target.position, target.normal, wanted.tangents ? target.tangent : kNone});
       const auto [found, is_new] = drawn_.try_emplace(std::move(key));
       drawn_of_primitive_[{mesh, i}] = &found->second;  // elements of a map stay where they are
-      if (is_new) plan_geometry(accessors_, p, uv_sets);
+      if (is_new) plan_geometry(accessors_, p, wanted);
     }
 }
 
@@ -216,8 +240,12 @@ SceneMaker::Drawn& SceneMaker::drawn_of(uint32_t mesh, size_t index) {
   if (!drawn.pointer.empty()) return drawn;
   const Primitive& p = document_.meshes[mesh].primitives[index];
   drawn.pointer = pointer_to("meshes", mesh, "primitives", index);
-  drawn.geometry = read_geometry(accessors_, p, uv_sets_of(p), drawn.pointer);
+  drawn.geometry = read_geometry(accessors_, p, wanted_of(p), drawn.pointer);
   if (p.targets.empty() && p.attributes.joints.empty()) drop_unused_vertices(drawn.geometry.mesh);
+  if (makes_tangents(p, wanted_of(p))) {
+    add_tangents(document_.materials[p.material].normal_map.uv, drawn.geometry);
+    accessors_.take(uint64_t(drawn.geometry.mesh.vertex_count()) * 4 * sizeof(float), drawn.pointer);
+  }
   drawn.geometry.mesh.name = document_.meshes[mesh].name;
   drawn.reach = reach_of(drawn.geometry.mesh);
   return drawn;
@@ -255,7 +283,7 @@ uint32_t SceneMaker::add_posed_mesh(const NodeSource& node, uint32_t place, Draw
     posed.skin = scene_skin(node.skin);
     check_joints(document_, shape, timeline.skins[*posed.skin], drawn.pointer);
   }
-  const size_t floats = 12 + 2 * mesh.more_uv.size();
+  const size_t floats = 12 + 2 * mesh.more_uv.size() + (mesh.has_tangents() ? 4 : 0);
   accessors_.take((uint64_t(mesh.vertex_count()) * floats + mesh.indices.size()) * 4, drawn.pointer);
   scene_.meshes.push_back(mesh);
   timeline.posed.push_back(std::move(posed));

@@ -17,7 +17,7 @@ namespace trueshade::gltf {
 class SceneMaker {
  public:
   SceneMaker(Buffers& buffers, const SceneFolder& folder, const SceneLimits& limits, const ImageDecoder& decode,
-             const SceneParts& parts);
+             const SceneParts& parts, bool keeps_tangents);
 
   /// The scene at time 0. Its timeline is empty where nothing moves. Once.
   Scene make();
@@ -50,7 +50,7 @@ class SceneMaker {
   uint32_t static_mesh(Drawn& drawn);
   Drawn& drawn_of(uint32_t mesh, size_t index);
   uint32_t scene_skin(uint32_t skin);
-  size_t uv_sets_of(const Primitive& primitive) const;
+  Wanted wanted_of(const Primitive& primitive) const;
   void choose_parts();
   bool moves() const;
   void read_geometry_and_nodes();
@@ -59,6 +59,7 @@ class SceneMaker {
   const Document& document_;
   const SceneLimits& limits_;
   const SceneParts& asked_;
+  const bool keeps_tangents_;
   Scene scene_;
   Faults faults_;
   Accessors accessors_;

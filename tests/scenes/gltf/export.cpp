@@ -136,6 +136,8 @@ class RandomScene {
       if (below(2) == 0) fill(set, -2, 2);
     if (below(2) == 0) fill(m.color, 0, below(2) == 0 ? 1 : 7);
     for (float& alpha : m.color[3]) alpha = std::min(alpha, 1.0f);
+    if (below(2) == 0) fill(m.tangent, -1, 1);
+    for (float& side : m.tangent[3]) side = side < 0.0f ? -1.0f : 1.0f;
     for (uint32_t i = 0; kind > 1 && i < 3 * (1 + below(9)); ++i) m.indices.push_back(below(vertices));
     m.indices.resize(m.indices.size() / 3 * 3);
     return m;

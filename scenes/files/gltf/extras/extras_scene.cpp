@@ -46,7 +46,7 @@ class ExtrasSceneMaker {
     if (extras_.meshes[i] != kNone) {
       const MeshSource& source = document_.meshes[extras_.meshes[i]];
       const Primitive& primitive = source.primitives[0];
-      mesh = read_geometry(accessors_, primitive, std::min(primitive.attributes.uv.size(), kMaxUvSets),
+      mesh = read_geometry(accessors_, primitive, {std::min(primitive.attributes.uv.size(), kMaxUvSets), true},
                            pointer_to("meshes", extras_.meshes[i], "primitives", 0))
                  .mesh;
       mesh.name = source.name;

@@ -75,6 +75,7 @@ class MeshWriter {
           streams[0].empty() ? out_.glb.zeros(mesh.vertex_count()) : out_.glb.accessor(streams, false);
       text += ",\"TEXCOORD_" + std::to_string(set) + "\":" + std::to_string(accessor);
     }
+    if (mesh.has_tangents()) text += ",\"TANGENT\":" + std::to_string(out_.glb.accessor(mesh.tangent, false));
     if (mesh.has_color()) text += ",\"COLOR_0\":" + std::to_string(colors(mesh, index));
     text += '}';
     if (mesh.indices.empty()) return text + ",\"mode\":0";
