@@ -231,6 +231,7 @@ void call_mesh(Bytes& out) {
   out.put(mesh.triangle_count());
   out.put(mesh.has_uv());
   out.put(mesh.has_color());
+  out.put(mesh.has_tangents());
   for (size_t set = 0; set < kMaxUvSets; ++set)
     for (const auto& stream : mesh.uv_set(set)) out.put(stream);
 }
@@ -238,7 +239,7 @@ void call_mesh(Bytes& out) {
 constexpr Row kRows[] = {
     {"scenes/builtin/builtin.h", "builtin_scene builtin_scenes", call_builtin},
     {"scenes/camera.h", "clip_from_world clip_from_view view_from_world product view_axis", call_camera},
-    {"scenes/mesh.h", "vertex_count triangle_count has_uv has_color uv_set", call_mesh},
+    {"scenes/mesh.h", "vertex_count triangle_count has_uv has_color has_tangents uv_set", call_mesh},
     {"scenes/placement.h", "world_from_object copied turned turn_about unit mirrors", call_placements},
     {"scenes/texture.h",
      "append_texel build_mip_chain texel_value bytes_per_texel used texture_bytes float_texels_of_16_bits",

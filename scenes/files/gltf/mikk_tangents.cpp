@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <tuple>
 
@@ -122,8 +123,9 @@ class TangentMaker {
     }
     std::sort(edges.begin(), edges.end());
     neighbour_.assign(corners_.size(), kAbsent);
+    std::vector<uint32_t> open[2];  // that go up and that go down, the next to be taken last
     for (size_t first = 0, end = 0; first < edges.size(); first = end) {
-      std::vector<uint32_t> open[2];  // that go up and that go down, the next to be taken last
+      open[0].clear(), open[1].clear();
       end = first;
       while (end < edges.size() && edges[end].low == edges[first].low && edges[end].high == edges[first].high) ++end;
       for (size_t i = end; i-- > first;) open[is_up(edges[i].edge) ? 0 : 1].push_back(edges[i].edge);
@@ -174,7 +176,7 @@ class TangentMaker {
   }
 
   std::array<float, 4> tangent_of(const std::vector<uint32_t>& members, bool preserves) const {
-    const glm::dvec3 n = at(mesh_.normal, corners_[members[0]]);
+    const glm::dvec3 n = unit(at(mesh_.normal, corners_[members[0]]));
     glm::dvec3 sum(0.0);
     for (const uint32_t corner : members) {
       if (faces_[corner / 3].joins_any) continue;
@@ -223,20 +225,18 @@ std::vector<uint32_t> add_mikk_tangents(const UvStreams& uv, Mesh& mesh) {
   const FpScope fp;
   const std::vector<std::array<float, 4>> of_corner = TangentMaker(uv, mesh).tangents();
   const size_t before = mesh.vertex_count();
-  std::vector<uint32_t> from(before), other(before, kAbsent);  // the next vertex that came of the same
+  std::vector<uint32_t> from(before);
   std::iota(from.begin(), from.end(), 0u);
-  std::vector<std::array<float, 4>> of_vertex(before);  // w is 0 until there is one
+  std::map<std::pair<uint32_t, std::array<float, 4>>, uint32_t> parted;  // by the vertex that it was and its tangent
+  std::vector<std::array<float, 4>> of_vertex(before);                   // w is 0 until there is one
   for (size_t corner = 0; corner < mesh.indices.size(); ++corner) {
     const std::array<float, 4>& wanted = of_corner[corner];
-    uint32_t v = mesh.indices[corner];
-    while (of_vertex[v][3] != 0.0f && of_vertex[v] != wanted && other[v] != kAbsent) v = other[v];
-    if (of_vertex[v][3] != 0.0f && of_vertex[v] != wanted) {
-      other[v] = uint32_t(from.size());
-      from.push_back(from[v]), other.push_back(kAbsent), of_vertex.emplace_back();
-      v = other[v];
-    }
-    of_vertex[v] = wanted;
-    mesh.indices[corner] = v;
+    const uint32_t v = mesh.indices[corner];
+    if (of_vertex[v][3] == 0.0f) of_vertex[v] = wanted;
+    if (of_vertex[v] == wanted) continue;
+    const auto [found, is_new] = parted.try_emplace({v, wanted}, uint32_t(from.size()));
+    if (is_new) from.push_back(v), of_vertex.push_back(wanted);
+    mesh.indices[corner] = found->second;
   }
   part_streams(mesh.position, from), part_streams(mesh.normal, from), part_streams(mesh.color, from);
   part_streams(mesh.uv, from);

@@ -7,6 +7,7 @@
 #include "../expect_error.h"
 #include "asset.h"
 #include "core/memory_cap.h"
+#include "scenes/files/gltf/mikk_tangents.h"
 #include "scenes/scene_defaults.h"
 
 // Small files that name much work: it stays in proportion to the file, or the file is refused.
@@ -43,6 +44,24 @@ TEST_CASE("the reach of a posed mesh is measured once for all its copies") {
       asset.gltf(one_primitive(R"("attributes": {"POSITION": 0, "NORMAL": 0}, "targets": [{"POSITION": 0}])",
                                R"("extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 1}}})"));
   CHECK(cpu_seconds([&] { CHECK(load_gltf(text).instances.size() == 100000); }) < kFewSeconds);
+}
+
+TEST_CASE("a vertex that many triangles tear apart takes no more time than as many vertices") {
+  Mesh mesh;  // of triangles that share the origin, and no edge
+  const auto add = [&mesh](float x, float y, float u, float v) {
+    const float values[] = {x, y, 0.0f, 0.0f, 0.0f, 1.0f};
+    for (size_t k = 0; k < 3; ++k) mesh.position[k].push_back(values[k]), mesh.normal[k].push_back(values[3 + k]);
+    mesh.uv[0].push_back(u), mesh.uv[1].push_back(v);
+  };
+  add(0, 0, 0, 0);
+  constexpr uint32_t kTriangles = 200000;
+  for (uint32_t i = 0; i < kTriangles; ++i) {
+    const auto turn = float(i);
+    add(1, turn, 1, 0), add(-turn, 1, 0, 1);
+    for (const uint32_t corner : {0u, 2 * i + 1, 2 * i + 2}) mesh.indices.push_back(corner);
+  }
+  CHECK(cpu_seconds([&] { gltf::add_mikk_tangents(mesh.uv, mesh); }) < kFewSeconds);
+  CHECK(mesh.vertex_count() > 2 * kTriangles + kTriangles / 2);
 }
 
 TEST_CASE("posed meshes are counted as geometry, with the weights of their targets") {
