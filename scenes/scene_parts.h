@@ -40,10 +40,10 @@ struct SceneParts {
 
 inline constexpr const char* kAllAnimations = "all";
 
-/// The place in the list of the camera, or of the animation, that the text names: by its number, else by its name.
-/// Error(usage) names the option, and lists what the file of this name has. A scene without a list of cameras has
-/// camera 0.
+/// The place in the list of the camera that the text names: by its number, else by its name. Error(usage) names the
+/// option, and lists what the file of this name has. A scene without a list of cameras has camera 0.
 size_t camera_named(const std::string& text, const std::vector<SceneCamera>& cameras, const std::string& file);
+/// The same of animations.
 size_t animation_named(const std::string& text, const std::vector<SceneAnimation>& animations, const std::string& file);
 
 }  // namespace trueshade

@@ -31,6 +31,7 @@ enum class ToneCurve : uint8_t {
   filmic,  ///< K. Narkowicz, "ACES Filmic Tone Mapping Curve" (2016): a shoulder above, a short toe below
 };
 inline constexpr std::string_view kToneCurveNames[] = {"clip", "filmic"};
+/// What is done with light before it is encoded.
 struct DisplayTransform {
   double scale = 1.0;  ///< of the light, before the curve; above 0
   ToneCurve curve = ToneCurve::clip;
