@@ -6,6 +6,7 @@
 #include "cli/json_text.h"
 #include "cli/version.h"
 #include "core/threads/parallel_for.h"
+#include "scenes/files/content/faults.h"
 
 namespace trueshade {
 namespace {

@@ -186,8 +186,8 @@ std::string text_of(const ProgramFacts& facts) {
 std::optional<std::vector<Section>> lists_of(const std::string& name) {
   std::vector<Section> all = sections();
   if (name.empty()) return all;
-  for (size_t i = 0; i < all.size(); ++i)
-    if (name == kListNames[i] || name == all[i].key) return std::vector{std::move(all[i])};
+  for (size_t i = 0; i < std::size(kListNames); ++i)
+    if (name == kListNames[i] || name == all.at(i).key) return std::vector{std::move(all.at(i))};
   std::vector<std::string_view> known(std::begin(kListNames), std::end(kListNames));
   for (const std::string_view preset : preset_names()) known.push_back(preset);
   for (const ShippedModel& model : shipped_models()) known.push_back(model.name);

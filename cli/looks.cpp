@@ -11,11 +11,13 @@
 #include "cli/preparation.h"
 #include "core/fp_env.h"
 #include "core/image_files/png_codes.h"
+#include "core/memory_cap.h"
 #include "core/srgb.h"
 #include "raster/clusters/clusters.h"
 #include "scenes/lights_of_ours.h"
 #include "scenes/pipeline/fit_lights.h"
 #include "shading/frame.h"
+#include "shading/frame_memory.h"
 #include "shading/light/power.h"
 
 namespace trueshade {
@@ -388,10 +390,16 @@ PipelineOptions with_smooth_edges(PipelineOptions options, const Scene& scene) {
   constexpr int64_t kMostPixels = int64_t(1) << 24;
   const Size size = options.size.value_or(Size{Pipeline().width, Pipeline().height});
   const bool is_lit = options.view.value_or(ImageView::lit) == ImageView::lit;
-  if (is_shown_for_looks(options, scene) && is_lit && !options.looks.samples &&
-      int64_t(size.width) * size.height <= kMostPixels)
-    options.looks.samples = kSmooth;
-  return options;
+  if (!is_shown_for_looks(options, scene) || !is_lit || options.looks.samples ||
+      int64_t(size.width) * size.height > kMostPixels)
+    return options;
+  PipelineOptions smooth = options;
+  smooth.looks.samples = kSmooth;
+  Pipeline pipeline = layered_pipeline(smooth, scene);
+  set_samples(smooth.looks, pipeline);
+  const uint64_t frame = predicted_memory(scene, pipeline, {}, {});
+  const uint64_t file = 4 * uint64_t(size.width) * uint64_t(size.height), used = resident_memory();
+  return used + frame + file <= memory_cap() ? smooth : options;
 }
 
 Looks bring_to_looks(const PipelineOptions& options, const Pipeline& pipeline, ChosenLooks chosen, Scene& scene,

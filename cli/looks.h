@@ -28,7 +28,7 @@ void set_samples(const Looks& looks, Pipeline& pipeline);
 bool is_shown_for_looks(const PipelineOptions& options, const Scene& scene);
 
 /// The options with the samples of smooth edges, where none are asked for, of a model that is shown for its looks in a
-/// picture that is not large: a large one is drawn a band at a time, as it is.
+/// picture that is not large and whose frame memory has room for: others are drawn as they are.
 PipelineOptions with_smooth_edges(PipelineOptions options, const Scene& scene);
 
 /// Whether the looks that were not asked for are chosen by the scene.

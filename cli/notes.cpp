@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/terminal.h"
+#include "scenes/files/content/faults.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/output/view_image.h"
 #include "shading/program/cut_lights.h"
@@ -180,12 +181,6 @@ Notes notes_of(const Scene& scene, const Pipeline& pipeline) {
         no_program_line(pipeline)})
     if (!line.empty()) notes.lines.push_back(std::move(line));
   return notes;
-}
-
-std::string lenient_text(const Scene& scene) {
-  std::string text;
-  for (const std::string& line : scene.passed_over) text += (text.empty() ? "" : ". ") + line;
-  return text;
 }
 
 bool is_lenient(const Metadata& metadata) {

@@ -23,10 +23,6 @@ void say_notes(const std::vector<std::string>& lines);
 std::string ignored_json(const Notes& notes);
 std::string lines_json(const Notes& notes);
 
-/// What a picture's file says of faults of its scene's file that --lenient has passed over: it is no reference.
-inline constexpr const char* kLenientKey = "trueshade:lenient";
-/// Of a scene, what stands there; empty where nothing was passed over.
-std::string lenient_text(const Scene& scene);
 /// Whether metadata say so.
 bool is_lenient(const Metadata& metadata);
 

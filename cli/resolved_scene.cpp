@@ -7,6 +7,7 @@
 #include "cli/json_text.h"
 #include "cli/notes.h"
 #include "raster/view.h"
+#include "scenes/files/content/faults.h"
 #include "scenes/pipeline/light_mesh.h"
 #include "shading/light/light_table.h"
 

@@ -12,6 +12,7 @@
 namespace trueshade {
 namespace {
 
+constexpr uint64_t kMostVertices = 100'000'000;  // that are placed, in a second or so
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct GrowingBox {
@@ -85,11 +86,18 @@ std::optional<WorldBox> drawn_box(const Scene& scene) {
   for (size_t m = 0; m < scene.meshes.size(); ++m)
     for (const uint32_t index : scene.meshes[m].indices) boxes[m].add(vertex_of(scene.meshes[m], index));
   GrowingBox all;
+  uint64_t left = kMostVertices;
   const size_t count = scene.instances.size() - (scene.ground_of_ours && !scene.instances.empty() ? 1 : 0);
   for (const Instance& instance : std::span(scene.instances).first(count)) {
     if (boxes[instance.mesh].is_empty()) continue;
-    if (all.contains(placed(boxes[instance.mesh], instance))) continue;  // and so all of its vertices
+    const GrowingBox around = placed(boxes[instance.mesh], instance);
+    if (all.contains(around)) continue;  // and so all of its vertices
     const Mesh& mesh = scene.meshes[instance.mesh];
+    if (left < mesh.indices.size()) {
+      all.add(around.least), all.add(around.most);
+      continue;
+    }
+    left -= mesh.indices.size();
     for (const uint32_t index : mesh.indices) all.add(in_world(instance, vertex_of(mesh, index)));
   }
   return all.is_empty() ? std::nullopt : std::optional(WorldBox{all.least, all.most});

@@ -19,8 +19,8 @@ struct WorldBox {
   glm::dvec3 least, most;
 };
 
-/// The least box around all vertices of triangles that are drawn, in f64, without a ground of ours. Nothing where
-/// nothing is drawn.
+/// The least box around all vertices of triangles that are drawn, in f64, without a ground of ours. Of more than
+/// 100 million corners a box around the boxes of meshes, which may be larger. Nothing where nothing is drawn.
 std::optional<WorldBox> drawn_box(const Scene& scene);
 
 /// Of `render SCENE -o picture.png` in bytes, as --max-memory is held against it.

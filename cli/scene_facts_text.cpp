@@ -7,6 +7,7 @@
 #include "cli/notes.h"
 #include "cli/scene_facts.h"
 #include "core/printable_text.h"
+#include "scenes/files/content/faults.h"
 #include "scenes/trig.h"
 
 namespace trueshade {

@@ -10,6 +10,7 @@
 #include "python/binding/interruptible.h"
 #include "python/binding/python_pipeline.h"
 #include "python/binding/python_scene.h"
+#include "scenes/files/content/faults.h"
 #include "shading/frame_memory.h"
 #include "shading/given_surfaces.h"
 
@@ -151,6 +152,8 @@ Metadata metadata_of(const PythonFrame& frame) {
     metadata.emplace_back("trueshade:sceneHash", frame.scene->hash());
     if (!scene.timeline.empty()) metadata.emplace_back("trueshade:time", json_number(frame.scene->time()));
   }
+  if (std::string text = lenient_text(frame.scene->values()); !text.empty())
+    metadata.emplace_back(kLenientKey, std::move(text));
   metadata.emplace_back("trueshade:version", kVersion);
   if (frame.view_scale > 0) metadata.emplace_back("trueshade:viewScale", std::to_string(frame.view_scale));
   return metadata;

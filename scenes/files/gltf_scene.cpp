@@ -18,9 +18,11 @@ Scene scene_from_gltf(std::span<const uint8_t> file, const std::string& path, co
   const SceneFolder folder(path, limits.named_paths);
   gltf::Buffers buffers(document, container, folder, limits);
   auto extras = gltf::read_extras(document, limits);
+  const bool is_ours = extras.has_value();
   Scene scene = extras
                     ? gltf::scene_of_extras(std::move(*extras), buffers, folder, limits, decode)
                     : gltf::SceneMaker(buffers, folder, limits, decode, parts, tangents == GltfTangents::kept).make();
+  if (is_ours) document.faults.tell(scene);  // a SceneMaker has told them
   scene.extensions = document.extensions;
   return scene;
 }

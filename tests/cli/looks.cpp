@@ -169,6 +169,15 @@ TEST_CASE("A model's PNGs and pages have smooth edges, and what is to be judged 
   CHECK(hash("lit.gltf", {"--aov", "depth"}, "a.exr") == hash("lit.gltf", {"--samples", "1"}, "b.exr"));
   CHECK(pictures.hash("lit.gltf", {}) == hash("lit.gltf", {}, "a.png"));
 
+  const auto big = [&](const std::string& memory) {
+    std::vector<std::string> words{"render", "lit.gltf", "--size",       "2000x2000",
+                                   "-o",     "big.png",  "--max-memory", memory};
+    return pictures.run(words);
+  };
+  const Outcome roomy = big("4G"), tight = big("450M");  // 4 samples a pixel do not fit
+  CHECK((roomy.exit_code == 0 && has(roomy.err, "--samples 1 takes one")));
+  CHECK((tight.exit_code == 0 && !has(tight.err, "--samples 1 takes one")));
+
   pictures.picture("lit.gltf", {}, "smooth.png");
   pictures.write_other("other.png", "smooth.png");
   const Outcome outcome = pictures.run({"compare", "smooth.png", "other.png"});

@@ -180,6 +180,11 @@ TEST_CASE("lenient: a material's map has no texture coordinates in the mesh, and
             R"(}}}], "textures": [{"source": 0}], "images": [{"uri": ")" + picture + "\"}]")));
     CHECK(the_fault(scene).find("the material reads TEXCOORD_" + std::string(set)) != std::string::npos);
     CHECK(scene.triangle_count() == 1);
+    const Scene bumpy = passed(asset.gltf(one_primitive(  // which would make tangents along them
+        R"("attributes": {"POSITION": 0}, "material": 0)", "",
+        R"("materials": [{"normalTexture": {"index": 0, "texCoord": )" + std::string(set) +
+            R"(}}], "textures": [{"source": 0}], "images": [{"uri": ")" + picture + "\"}]")));
+    CHECK_FALSE(bumpy.meshes.at(0).has_tangents());
   }
   CHECK(the_fault(passed(asset.gltf(one_primitive(R"("attributes": {"POSITION": 0, "COLOUR": 0})"))))
             .find("this attribute is not in glTF") != std::string::npos);
@@ -195,6 +200,10 @@ Scene passed_file(const std::string& path, const std::string& reason) {
       error = caught.what();
     }
     CHECK(error.find(reason) != std::string::npos);
+    const std::string_view option = "--lenient";
+    size_t named = 0;
+    for (size_t at = error.find(option); at != std::string::npos; at = error.find(option, at + 1)) ++named;
+    CHECK(named == (leniency == Leniency::offered ? 1u : 0u));
     CHECK((error.find(kHint) != std::string::npos) == (leniency == Leniency::offered));
   }
   return load_scene(path, with(Leniency::asked), decode_plain);
@@ -228,6 +237,19 @@ TEST_CASE("lenient: pictures of MTL that are missing, and statements of wrong wo
   CHECK(!m.textured());
   CHECK(m.alpha_cutoff == 0.0f);
   CHECK(scene.textures.empty());
+}
+
+TEST_CASE("lenient: what follows a newmtl that is passed over changes no other material") {
+  const ScratchFolder folder;
+  folder.write("m.mtl", "newmtl red\nKd 1 0 0\nnewmtl m\nKd 0 1 0\nnewmtl red\nKd 0 0 1\n");
+  const Scene scene =
+      passed_file(folder.write("m.obj", std::string("mtllib m.mtl\n") + kObj), "a material of this name exists");
+  REQUIRE(scene.materials.size() >= 1);
+  for (const Material& material : scene.materials) {
+    INFO(material.name);
+    if (material.name == "m") CHECK(material.base_color == glm::vec4(0.0f, 1.0f, 0.0f, 1.0f));
+    CHECK(material.base_color.z == 0.0f);
+  }
 }
 
 TEST_CASE("lenient: statements of OBJ that cannot be read are left out, and indices keep their elements") {

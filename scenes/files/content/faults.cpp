@@ -29,9 +29,10 @@ constexpr FaultWords kWords[kFaults] = {
 constexpr size_t kNamed = 5;
 constexpr std::string_view kRemedy = "add --lenient to look at it all the same";
 
-/// The same error, with that behind its own remedy.
+/// The same error, with that behind its own remedy, once.
 Error with_remedy(const Error& error) {
   const std::string text = error.what();
+  if (text.ends_with(std::string(kRemedy) + ')')) return error;
   const size_t where = text.find(": "), remedy = text.rfind(" (");
   return {error.kind(), text.substr(0, where), text.substr(where + 2, remedy - where - 2),
           text.substr(remedy + 2, text.size() - remedy - 3) + "; " + std::string(kRemedy)};
@@ -84,6 +85,12 @@ void tell_passed_over(const std::vector<std::string>& lines, Scene& scene) {
     scene.passed_over.push_back(line);
     scene.notes.push_back("As --lenient asks: " + line);
   }
+}
+
+std::string lenient_text(const Scene& scene) {
+  std::string text;
+  for (const std::string& line : scene.passed_over) text += (text.empty() ? "" : ". ") + line;
+  return text;
 }
 
 void lose_map(Material& material, TextureSlot Material::*map) {

@@ -60,6 +60,11 @@ class Faults {
 /// Adds what was passed over of a file to the scene that names the file, and to the scene's notes.
 void tell_passed_over(const std::vector<std::string>& lines, Scene& scene);
 
+/// What a picture's file says of faults of its scene's file that --lenient has passed over: it is no reference.
+inline constexpr const char* kLenientKey = "trueshade:lenient";
+/// Of a scene, what stands there; empty where nothing was passed over.
+std::string lenient_text(const Scene& scene);
+
 /// Makes of a material what is drawn where a map of it cannot be read: half of its colour, of its specular colour, of
 /// its roughness and its metalness; no light of its own; and as without a normal or an occlusion map.
 void lose_map(Material& material, TextureSlot Material::*map);

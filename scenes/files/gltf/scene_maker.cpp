@@ -188,7 +188,9 @@ Wanted SceneMaker::wanted_of(const Primitive& primitive) const {
   bool tangents = false;
   if (primitive.material != kNone) {
     const MaterialSource& m = document_.materials[primitive.material];
-    tangents = keeps_tangents_ && m.normal_map.texture != kNone;
+    const std::vector<uint32_t>& uv = primitive.attributes.uv;
+    const size_t along = m.normal_map.uv.set;  // which --lenient lets a mesh lack
+    tangents = keeps_tangents_ && m.normal_map.texture != kNone && along < uv.size() && uv[along] != kNone;
     for (const TextureInfo* map :
          {&m.base_color_map, &m.metallic_roughness_map, &m.normal_map, &m.occlusion_map, &m.emission_map})
       if (map->texture != kNone) sets = std::max(sets, size_t(map->uv.set) + 1);
@@ -197,6 +199,9 @@ Wanted SceneMaker::wanted_of(const Primitive& primitive) const {
 }
 
 namespace {
+
+constexpr uint64_t kTangentStreams = 4, kMostStreams = 3 + 3 + 2 + 4 + kTangentStreams;  // with one set of uv
+constexpr uint64_t kTangentWork = 80;  // bytes of a corner, while tangents are made
 
 /// Whether a primitive's normal map asks for tangents that the file does not have.
 bool makes_tangents(const Primitive& primitive, const Wanted& wanted) {
@@ -243,8 +248,13 @@ SceneMaker::Drawn& SceneMaker::drawn_of(uint32_t mesh, size_t index) {
   drawn.geometry = read_geometry(accessors_, p, wanted_of(p), drawn.pointer);
   if (p.targets.empty() && p.attributes.joints.empty()) drop_unused_vertices(drawn.geometry.mesh);
   if (makes_tangents(p, wanted_of(p))) {
+    const Mesh& mesh = drawn.geometry.mesh;
+    const uint64_t before = mesh.vertex_count(), corners = mesh.indices.size();
+    const uint64_t vertex_bytes = (kMostStreams + 2 * mesh.more_uv.size()) * sizeof(float);
+    require_memory(corners * (kTangentWork + vertex_bytes), document_.file + ": " + drawn.pointer, "its tangents");
     add_tangents(document_.materials[p.material].normal_map.uv, drawn.geometry);
-    accessors_.take(uint64_t(drawn.geometry.mesh.vertex_count()) * 4 * sizeof(float), drawn.pointer);
+    const uint64_t parted = mesh.vertex_count() - before;
+    accessors_.take(before * kTangentStreams * sizeof(float) + parted * vertex_bytes, drawn.pointer);
   }
   drawn.geometry.mesh.name = document_.meshes[mesh].name;
   drawn.reach = reach_of(drawn.geometry.mesh);

@@ -43,6 +43,8 @@ class MtlReader {
     const std::string keyword = in_small_letters(text_.keyword());
     if (keyword == "newmtl")
       begin_material();
+    else if (is_left_out_)
+      return;
     else if (document_.materials.empty())
       text_.fail("'" + shown_word(text_.keyword()) + "' stands before the first newmtl", "newmtl and a name first");
     else if (!read_value(keyword, document_.materials.back()) && !read_map(keyword, document_.materials.back()) &&
@@ -52,10 +54,12 @@ class MtlReader {
 
   void begin_material() {
     MtlMaterial material;
+    is_left_out_ = true;  // until it is there: where a newmtl is passed over, so is what follows it
     material.name = text_.rest();
     material.line = text_.line();
     if (!names_.insert(material.name).second) text_.fail("a material of this name exists", "another name");
     document_.materials.push_back(std::move(material));
+    is_left_out_ = false;
   }
 
   float number_in(const char* what, float least, float most, const char* remedy) {
@@ -196,6 +200,7 @@ class MtlReader {
   Faults& faults_;
   MtlDocument document_;
   std::set<std::string> names_;
+  bool is_left_out_ = false;       ///< the material that statements are of
   std::optional<uint32_t> has_d_;  ///< line of the newmtl of the last material with a statement d
 };
 
