@@ -194,7 +194,8 @@ Account against_account(const Question& q, const PixelHistory& history) {
 void explain(const ExplainOptions& options) {
   check_pipeline(options);
   Scene scene = scene_of_options(options);
-  Pipeline pipeline = pipeline_of(options.against ? options : with_smooth_edges(options, scene), scene);
+  Pipeline pipeline =
+      pipeline_of(options.against ? PipelineOptions(options) : with_smooth_edges(options, scene), scene);
   const bool other_view = pipeline.view != ImageView::lit;
   pipeline.view = ImageView::lit;
   bring_to_looks(options, pipeline, ChosenLooks::by_scene, scene);
