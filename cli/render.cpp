@@ -58,17 +58,13 @@ void check_outputs(const RenderOptions& options, const MpiStart& start) {
 }
 
 /// The options with smooth edges, unless the picture is to be judged: planes and EXR files hold values, and the legal
-/// sets of a sample say nothing of an average. Says so in Scene::notes.
-RenderOptions for_eyes(RenderOptions options, Scene& scene) {
+/// sets of a sample say nothing of an average.
+RenderOptions for_eyes(RenderOptions options, const Scene& scene) {
   const bool holds_values =
       !options.aovs.empty() || std::any_of(options.outputs.begin(), options.outputs.end(),
                                            [](const std::string& path) { return has_ending(path, ".exr"); });
   if (holds_values || options.cube_map || !options.execution.region.whole()) return options;
-  const Looks looks = with_smooth_edges(options, scene).looks;
-  if (looks.samples != options.looks.samples)
-    scene.notes.push_back("A pixel is the average of " + *looks.samples +
-                          " samples, so that edges are smooth (--samples 1 takes one, which compare can judge)");
-  options.looks = looks;
+  options.looks = with_smooth_edges(options, scene).looks;
   return options;
 }
 
