@@ -59,7 +59,7 @@ def sheet(cells, columns, path, folder):
                     f"--window-size={width},{rows * (SIZE[1] + 22) + 8}", f"--screenshot={shot}", "file://" + page],
                    check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     with open(path, "wb") as file:
-        file.write(png_bytes(read_png(shot), 128))
+        file.write(png_bytes(read_png(shot), 256))
 
 
 def main():
