@@ -63,7 +63,8 @@ void show(Scene& scene, const CameraChanges& changes, const Pipeline& pipeline, 
 
 void check_memory(const Scene& scene, const Pipeline& pipeline, const Execution& execution,
                   std::span<const std::string> aovs, uint64_t more) {
-  require_memory(predicted_memory(scene, pipeline, execution, aovs) + more, scene.spec, "drawing it");
+  require_memory(predicted_memory(scene, pipeline, execution, aovs) + more, scene.spec, "drawing it",
+                 pipeline.post.samples > 1 ? "name fewer --samples" : "ask for less");
 }
 
 namespace {

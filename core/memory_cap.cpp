@@ -103,7 +103,7 @@ uint64_t resident_memory() {
 
 uint64_t resident_memory_with_files() { return resident_pages().all * uint64_t(sysconf(_SC_PAGESIZE)); }
 
-void require_memory(uint64_t bytes, std::string_view where, std::string_view what) {
+void require_memory(uint64_t bytes, std::string_view where, std::string_view what, std::string_view remedy) {
   constexpr uint64_t kUnasked = uint64_t(1) << 20;  // to ask what is resident takes 2 us, too long for small requests
   if (unasked.fetch_add(bytes) + bytes <= kUnasked) return;
   unasked = 0;
@@ -112,7 +112,7 @@ void require_memory(uint64_t bytes, std::string_view where, std::string_view wha
   throw Error(ErrorKind::limit, where,
               std::string(what) + " needs " + mebibytes(bytes) + " besides the " + mebibytes(resident) +
                   " in use, and --max-memory is " + mebibytes(most),
-              "ask for less, or raise --max-memory");
+              std::string(remedy) + ", or raise --max-memory");
 }
 
 }  // namespace trueshade

@@ -23,8 +23,9 @@ uint64_t resident_memory();
 uint64_t resident_memory_with_files();
 
 /// Is called before memory is taken. Throws Error(limit) that names --max-memory if resident_memory() plus `bytes` is
-/// over the limit. `what` names what needs the memory, such as "the picture".
-void require_memory(uint64_t bytes, std::string_view where, std::string_view what);
+/// over the limit. `what` names what needs the memory, such as "the picture", and `remedy` what asks for less of it.
+void require_memory(uint64_t bytes, std::string_view where, std::string_view what,
+                    std::string_view remedy = "ask for less");
 
 /// The least limit of a control group and its parents. `group` is a path below `root`, such as /a/b; each folder on the
 /// path may hold a file `name` with a number or `max`. UINT64_MAX if no file has a number.
