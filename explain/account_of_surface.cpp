@@ -40,7 +40,8 @@ Account surface_account(const ExplainedFrame& frame, uint32_t of_instance, const
   out.add("q", w.q, "sum of E_i u_i");
   out.add("b", w.smooth, "perspective weights b_1, b_2");
   out.add("b_linear", w.linear, "the same without perspective");
-  if (surface.turned) out.add("turned", true, "the normal of a double-sided back face is negated");
+  if (surface.turned)
+    out.add("turned", true, "the normal of a double-sided back face is negated, after a normal map has bent it");
   out.add("material", int64_t(instance.material),
           "index; its id is one more" + (material.name.empty() ? "" : ": " + material.name));
   out.add("base",

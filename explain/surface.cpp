@@ -214,7 +214,7 @@ MapTangents frame_of(const ExplainedFrame& frame, const PixelFragment& f, const 
   }
   const std::array<float, 3> w = corners.of(corners.mesh.tangent[3], 0.0f);
   const bool mirrored = mirrors(frame.scene.instances[f.instance].world_from_object);
-  out.tangent = {0.0f, 0.0f, 0.0f, (w[0] + w[1] + w[2] < 0.0f) == (mirrored == out.turned) ? -1.0f : 1.0f};
+  out.tangent = {0.0f, 0.0f, 0.0f, (w[0] + w[1] + w[2] < 0.0f) == mirrored ? 1.0f : -1.0f};
   MapTangents along;
   for (size_t c = 0; c < 3; ++c) {
     (*out.tangent)[c] = at(frame.pipeline.gbuffer.normal.interpolation, corners.tangent(c));
@@ -236,18 +236,18 @@ void interpolate(const ExplainedFrame& frame, const PixelFragment& f, const GBuf
   for (size_t c = 0; c < 4; ++c)
     to.albedo[c] = at(planes.albedo.interpolation, corners.of(corners.mesh.color[c], 1.0f));
   for (size_t c = 0; c < 2; ++c) to.uv[c] = at(planes.uv.interpolation, corners.of(corners.mesh.uv[c], 0.0f));
+  if (made_unit_at_fragment(planes.unit_normals)) make_unit(to.normal);
+  if (const MaterialMaps* const maps = maps_of_fragment(frame, f)) {
+    out.lookups = look_maps_up(*maps, corners, at, frame.view.maps.uv_how);
+    if (const auto* texel = texel_of(out.lookups, "color"))
+      for (size_t c = 0; c < 4; ++c) to.albedo[c] = to.albedo[c] * (*texel)[c];
+    if (const auto* texel = texel_of(out.lookups, "normal")) {
+      const MapTangents along = frame_of(frame, f, corners, at, maps->normal->uv_set, out);
+      to.normal = bent_normal(along, to.normal, *texel, maps->normal_scale);
+    }
+  }
   if (out.turned)
     for (float& n : to.normal) n = -n;
-  if (made_unit_at_fragment(planes.unit_normals)) make_unit(to.normal);
-  const MaterialMaps* const maps = maps_of_fragment(frame, f);
-  if (maps == nullptr) return;
-  out.lookups = look_maps_up(*maps, corners, at, frame.view.maps.uv_how);
-  if (const auto* texel = texel_of(out.lookups, "color"))
-    for (size_t c = 0; c < 4; ++c) to.albedo[c] = to.albedo[c] * (*texel)[c];
-  if (const auto* texel = texel_of(out.lookups, "normal")) {
-    const MapTangents along = frame_of(frame, f, corners, at, maps->normal->uv_set, out);
-    to.normal = bent_normal(along, to.normal, *texel, maps->normal_scale);
-  }
 }
 
 }  // namespace

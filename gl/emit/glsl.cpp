@@ -135,8 +135,6 @@ vec3 unit_normal(vec3 n) {
 /// docs/arithmetic.md section 13: a texel of a normal map in the frame of the triangle's texture coordinates, or of
 /// vertices' tangents.
 std::string bent_normal_text(const GlslOptions& options) {
-  const std::string side = options.double_sided ? "(double_sided && !gl_FrontFacing ? -tangent_side : tangent_side)"
-                                                : std::string("tangent_side");
   return R"(uniform sampler2D normal_map;
 uniform float normal_scale;
 
@@ -152,7 +150,7 @@ vec3 bent_normal(vec3 N, vec3 texel) {
   T = T * inversesqrt(t2);
   vec3 C = cross(N, T);
   float v = )" +
-         (options.vertex_tangents ? "tangent_side == 0.0 ? dot(C, along_v) : " + side : "dot(C, along_v)") +
+         (options.vertex_tangents ? "tangent_side == 0.0 ? dot(C, along_v) : tangent_side" : "dot(C, along_v)") +
          R"(;
   vec3 B = C * (v < 0.0 ? -inversesqrt(n2) : inversesqrt(n2));
   vec3 t = vec3((2.0 * texel.xy - 1.0) * normal_scale, 2.0 * texel.z - 1.0);
@@ -328,10 +326,10 @@ std::string albedo_text(const GlslOptions& options) {
 }
 
 std::string normal_text(const Pipeline& pipeline, const GlslOptions& options) {
-  std::string straight =
-      options.double_sided ? "(double_sided && !gl_FrontFacing ? -world_normal : world_normal)" : "world_normal";
-  if (made_unit_at_fragment(pipeline.gbuffer.unit_normals)) straight = "unit_normal(" + straight + ")";
-  return options.normal_maps ? "bent_normal(" + straight + ", " + lookup_text("normal", options) + ".xyz)" : straight;
+  std::string normal = "world_normal";
+  if (made_unit_at_fragment(pipeline.gbuffer.unit_normals)) normal = "unit_normal(" + normal + ")";
+  if (options.normal_maps) normal = "bent_normal(" + normal + ", " + lookup_text("normal", options) + ".xyz)";
+  return options.double_sided ? normal + " * (double_sided && !gl_FrontFacing ? -1.0 : 1.0)" : normal;
 }
 
 std::string vertex_text(const Pipeline& pipeline, const GlslOptions& options) {

@@ -61,23 +61,14 @@ Range either(const Range& a, const Range& b, bool first) {
 void SurfaceValues::bend(const std::array<Range, 4>& bumps) {
   TangentFrame frame = form_->tangents();
   const Interpolation how = projector_.pipeline().gbuffer.normal.interpolation;
-  std::array<Range, 3> n, turned;
+  std::array<Range, 3> n;
   for (size_t k = 0; k < 3; ++k) {
     n[k] = straight_normal(int(k), how);
-    turned[k] = negated(n[k]);
     if (frame.side == 0) continue;
     const Range u = attribute(kTangent + k, how);
     frame.u[k] = {u.value, std::max(u.high - u.value, u.value - u.low)};
   }
-  TangentFrame back_frame = frame;  // B stays, though the normal is turned round
-  back_frame.side = -frame.side;
-  const auto bent = [&](const std::array<Range, 3>& normal, const TangentFrame& along) {
-    return bent_normal(normal, along, bumps, double(material_->normal_scale), projector_.profile());
-  };
-  bent_ = may_be_front() ? bent(n, frame) : bent(turned, back_frame);
-  if (!may_be_front() || !may_be_back()) return;
-  const std::array<Range, 3> back = bent(turned, back_frame);
-  for (size_t k = 0; k < 3; ++k) (*bent_)[k] = either((*bent_)[k], back[k], piece_->front);
+  bent_ = bent_normal(n, frame, bumps, double(material_->normal_scale), projector_.profile());
 }
 
 Range SurfaceValues::depth() const {
@@ -103,10 +94,9 @@ Range SurfaceValues::straight_normal(int k, Interpolation interpolation) const {
 }
 
 Range SurfaceValues::normal(int k, Interpolation interpolation) const {
-  if (bent_) return (*bent_)[size_t(k)];
-  const Range straight = straight_normal(k, interpolation);
-  if (!may_be_back()) return straight;
-  return may_be_front() ? either(straight, negated(straight), piece_->front) : negated(straight);
+  const Range of_front = bent_ ? (*bent_)[size_t(k)] : straight_normal(k, interpolation);
+  if (!may_be_back()) return of_front;
+  return may_be_front() ? either(of_front, negated(of_front), piece_->front) : negated(of_front);
 }
 
 Range SurfaceValues::base_color(int k, Interpolation interpolation) const {

@@ -92,7 +92,7 @@ inline void add_clipped_pieces(const TileDraws& in, const TileRect& rect, const 
       }
       if (group[g].first != kVertexTangent) continue;
       const float* const side = value[kVertexTangent + 3];
-      made.side = double(side[0] + side[1] + side[2]) * (made.turned ? -1.0 : 1.0);
+      made.side = double(side[0] + side[1] + side[2]);
     }
   }
 }
@@ -153,13 +153,14 @@ inline void interpolate_piece(const SurfaceTask& task, const ClippedPiece& piece
       hn::Store(hn::IfThenElse(mine, value, hn::Load(df, plane)), df, plane);
     }
   }
+  if (made_unit_at_fragment(task.planes.unit_normals)) make_normals_unit(df, mine, at, task.out);
+  if (maps.textured()) {
+    PixelTangents tangents{};
+    if (maps.tangents) tangents = piece_tangents(piece, w, task.planes.normal.interpolation);
+    map_piece(piece, w, owned, at, maps, PixelFrames{task.work, at, maps.tangents ? &tangents : nullptr}, task.out);
+  }
   for (uint32_t lanes = piece.turned ? lane_bits(D64(), owned) : 0; lanes != 0; lanes &= lanes - 1)
     turn_normal(task.out, at + std::countr_zero(lanes));
-  if (made_unit_at_fragment(task.planes.unit_normals)) make_normals_unit(df, mine, at, task.out);
-  if (!maps.textured()) return;
-  PixelTangents tangents{};
-  if (maps.tangents) tangents = piece_tangents(piece, w, task.planes.normal.interpolation);
-  map_piece(piece, w, owned, at, maps, PixelFrames{task.work, at, maps.tangents ? &tangents : nullptr}, task.out);
 }
 
 /// The pixels of clipped triangle `id` among those of the vector that begins at pixel `at`: each is of the first piece

@@ -21,16 +21,7 @@ HWY_BEFORE_NAMESPACE();
 namespace trueshade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Whether each of a vector of pixels shows a double-sided back face. Those of clipped triangles are left to
-// interpolate_piece().
-HWY_INLINE void find_turned(const SurfaceTask& task, const PixelTriangles& triangles, int i, bool turned[kMostLanes]) {
-  alignas(64) double of_area[kMostLanes];
-  hn::Store(triangles.at.inverse_area, D64(), of_area);
-  for (int k = 0; k < int(hn::Lanes(D64())); ++k)
-    turned[k] = task.out.covered[i + k] != 0 && is_turned(task.in.view, task.out.object[i + k] - 1, of_area[k] > 0.0);
-}
-
-PixelTangents pixel_tangents(const SurfaceTask& task, const PixelTriangles& triangles, VI32 provoking, int i) {
+PixelTangents pixel_tangents(const SurfaceTask& task, const PixelTriangles& triangles, VI32 provoking) {
   const D64 d;
   const std::vector<float>* const stream = task.work.stream + kVertexTangent;
   V64 u[3], side = hn::Zero(d);
@@ -38,13 +29,6 @@ PixelTangents pixel_tangents(const SurfaceTask& task, const PixelTriangles& tria
     u[c] = hn::PromoteTo(d, triangles.attribute(stream[c].data(), task.planes.normal.interpolation, provoking));
   for (int k = 0; k < 3; ++k)
     side = hn::Add(side, hn::PromoteTo(d, hn::GatherIndex(D32(), stream[3].data(), triangles.vertex[k])));
-  if (task.in.view.faces.any_double_sided()) {
-    bool turned[kMostLanes];
-    alignas(64) double sign[kMostLanes];
-    find_turned(task, triangles, i, turned);
-    for (size_t k = 0; k < hn::Lanes(d); ++k) sign[k] = turned[k] ? -1.0 : 1.0;
-    side = hn::Mul(side, hn::Load(d, sign));
-  }
   return {{u[0], u[1], u[2]}, side};
 }
 
@@ -71,17 +55,18 @@ HWY_NOINLINE void map_pixels(const SurfaceTask& task, const PixelTriangles& tria
   }
   const M64 owned = hn::Gt(hn::Load(d, vertex_path), hn::Zero(d));
   PixelTangents tangents{};
-  if (maps.tangents) tangents = pixel_tangents(task, triangles, provoking, i);
+  if (maps.tangents) tangents = pixel_tangents(task, triangles, provoking);
   apply_maps(maps, at, &owned, &i, PixelFrames{task.work, i, maps.tangents ? &tangents : nullptr}, task.out);
 }
 
 // Turns round the normals of a vector of pixels that show double-sided back faces; those of clipped triangles are left
 // to interpolate_piece().
 HWY_NOINLINE void turn_normals(const SurfaceTask& task, const PixelTriangles& triangles, int i) {
-  bool turned[kMostLanes];
-  find_turned(task, triangles, i, turned);
+  alignas(64) double of_area[kMostLanes];
+  hn::Store(triangles.at.inverse_area, D64(), of_area);
   for (int k = 0; k < int(hn::Lanes(D64())); ++k)
-    if (turned[k]) turn_normal(task.out, i + k);
+    if (task.out.covered[i + k] != 0 && is_turned(task.in.view, task.out.object[i + k] - 1, of_area[k] > 0.0))
+      turn_normal(task.out, i + k);
 }
 
 // Interpolates all covered pixels as if no triangle had been clipped; pixels of clipped triangles are drawn over.
@@ -104,9 +89,9 @@ void interpolate_tile(const SurfaceTask& task) {
       for (int c = g->first; c < g->first + g->count; ++c)
         hn::Store(triangles.attribute(work.stream[c].data(), g->plane.interpolation, provoking), df,
                   task.out.plane[c] + i);
-    if (task.in.view.faces.any_double_sided()) turn_normals(task, triangles, i);
     if (made_unit_at_fragment(task.planes.unit_normals)) make_normals_unit(df, i, task.out);
     if (task.in.view.maps.textured()) map_pixels(task, triangles, provoking, i);
+    if (task.in.view.faces.any_double_sided()) turn_normals(task, triangles, i);
   }
 }
 

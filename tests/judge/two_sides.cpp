@@ -247,11 +247,12 @@ GlslShaders replaced(GlslShaders shaders, const std::string& part, const std::st
 constexpr struct {
   const char *part, *by;
 } kWrongText[] = {
-    {"< 0.0 ? -own.w : own.w;", "< 0.0 ? own.w : own.w;"},                      // a matrix that mirrors forgotten
-    {"!gl_FrontFacing ? -tangent_side :", "!gl_FrontFacing ? tangent_side :"},  // B turned with the normal
-    {"vec3 T = U - N * (dot(N, U) / n2);", "vec3 T = U;"},                      // not laid across N
-    {"T = T * inversesqrt(t2);", "T = T * 1.0;"},                               // not of unit length
-    {"tangent_side == 0.0 ? dot(C, along_v)", "true ? 1.0"},                    // w dropped
+    {"< 0.0 ? -own.w : own.w;", "< 0.0 ? own.w : own.w;"},  // a matrix that mirrors forgotten
+    // A back face's T and B not turned with its N.
+    {"return (T * t.x + B * t.y) +", "return (gl_FrontFacing ? T * t.x + B * t.y : -(T * t.x + B * t.y)) +"},
+    {"vec3 T = U - N * (dot(N, U) / n2);", "vec3 T = U;"},    // not laid across N
+    {"T = T * inversesqrt(t2);", "T = T * 1.0;"},             // not of unit length
+    {"tangent_side == 0.0 ? dot(C, along_v)", "true ? 1.0"},  // w dropped
     {"own.xyz), linear(world_from_object[1]", "own.xyz), linear(-world_from_object[1]"},
 };
 

@@ -177,12 +177,12 @@ def normal_of(scene, f):
     state = scene["pipeline"]["gbuffer"]
     normal = np.array([f.attribute(3 + k, state["normal"]["interpolation"]) for k in range(3)], f32)
     material = material_of(scene, f)
-    if material["double_sided"] and is_back(scene, f):
-        normal = -normal
     if state["unit_normals"] != "vertex":
         normal = unit_rows(normal[None])[0]
     texel = texel_at(scene, f, "normal")
-    return normal if texel is None else bent(scene, f, normal, texel, float(material["normal_scale"]))
+    if texel is not None:
+        normal = bent(scene, f, normal, texel, float(material["normal_scale"]))
+    return -normal if material["double_sided"] and is_back(scene, f) else normal
 
 
 def bent(scene, f, normal, texel, scale):
@@ -205,7 +205,7 @@ def bent(scene, f, normal, texel, scale):
 
 
 def vertex_tangent(scene, f):
-    """U of vertices' tangents, and whether B is turned: by the corners' w, a matrix that mirrors, and a back face."""
+    """U of vertices' tangents, and whether B is turned: by the corners' w and by a matrix that mirrors."""
     o = scene["objects"][f.object]
     first = 10 + 2 * len(scene["meshes"][o["mesh"]]["uv"])
     interpolation = scene["pipeline"]["gbuffer"]["normal"]["interpolation"]
@@ -214,8 +214,6 @@ def vertex_tangent(scene, f):
     columns = [[float(row[k]) for row in floats(o["world_from_object"])] for k in range(3)]
     turned = w < 0
     if host.dot(columns[0], host.cross(columns[1], columns[2])) < 0:
-        turned = not turned
-    if scene["materials"][o["material"]]["double_sided"] and is_back(scene, f):
         turned = not turned
     return u, lambda c: turned
 

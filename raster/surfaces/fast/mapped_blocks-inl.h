@@ -124,8 +124,7 @@ struct MappedBlocks {
       value[MappedTriangle::kUv2 + k] = set_up.to_2[kUvValue + k];
     }
     if (!maps_of(triangle).normal) return;
-    const bool turned = in.view.faces.any_double_sided() && is_turned_whole(in.view, seen, triangle);
-    const bool of_vertices = in.view.maps.tangents && set_tangents(triangle, turned, value);
+    const bool of_vertices = in.view.maps.tangents && set_tangents(triangle, value);
     TangentFrame frame = frame_of(triangle);
     put(frame.u, value + MappedTriangle::kFrame), put(frame.v, value + MappedTriangle::kFrame + 3);
     constexpr uint32_t kNormalBits = 7u << kNormalValue;
@@ -137,10 +136,7 @@ struct MappedBlocks {
       frame = with_tangents(frame, {{same(0), same(1), same(2)}, hn::Set(D64(), value[MappedTriangle::kSide])});
     }
     V32 normal[3];
-    for (int c = 0; c < 3; ++c) {
-      const float straight = float(set_up.a0[kNormalValue + c]) + 0.0f;
-      normal[c] = hn::Set(D32(), turned ? -straight : straight);
-    }
+    for (int c = 0; c < 3; ++c) normal[c] = hn::Set(D32(), float(set_up.a0[kNormalValue + c]) + 0.0f);
     if (made_unit_at_fragment(unit_normals)) make_unit(normal);
     const D64 d;
     const BumpFrame bump =
@@ -150,7 +146,7 @@ struct MappedBlocks {
   }
 
   /// Sets the tangents of a triangle's corners; false where its mesh has none.
-  bool set_tangents(SeenTriangle triangle, bool turned, double* value) const {
+  bool set_tangents(SeenTriangle triangle, double* value) const {
     const CanonicalVertices of(seen, triangle);
     double side = 0.0;
     for (int k = 0; k < 3; ++k) {
@@ -158,7 +154,7 @@ struct MappedBlocks {
       for (int c = 0; c < 3; ++c) value[MappedTriangle::kTangents + 3 * k + c] = double(tangent[c]);
       side += double(tangent[3]);
     }
-    value[MappedTriangle::kSide] = turned ? -side : side;
+    value[MappedTriangle::kSide] = side;
     return side != 0.0;
   }
 

@@ -56,12 +56,12 @@ bool resolve_by_blocks(const SurfaceTask& task) {
     if (colored || g->first != kAlbedo) group[groups++] = *g;
   const WantedValues values = wanted_values(group, wanted);
   BlockInterpolation{in, task.rect, group, groups, values, task.visible, seen, out}.run();
-  if (in.view.faces.any_double_sided()) TurnedNormals{in, task.visible, seen, out}.run();
   if (made_unit_at_fragment(task.planes.unit_normals)) make_tile_unit(task);
   if (textured) {
     for (int c = 0; c < 4 && !colored; ++c) std::fill_n(out.plane[kAlbedo + c], task.pixels(), 1.0f);
     MappedBlocks{in, task.rect, values, task.planes.unit_normals, task.visible, seen, out}.run();
   }
+  if (in.view.faces.any_double_sided()) TurnedNormals{in, task.visible, seen, out}.run();
   if (task.planes.position_from_depth) rebuild_positions(task.in.view, task.rect, task.visible.depth, task.out);
   store_interpolated(task);
   if (colored || textured) {
