@@ -2,7 +2,9 @@
 // What an operation of a light program may make of operands that are known within bounds, by the accuracy that GLSL
 // 4.60, 4.7.1 and Vulkan's "Precision and Operation of SPIR-V Instructions" promise of it, or WGSL's "Floating Point
 // Accuracy" where Arithmetic::wgsl.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "judge/bounds/bounded.h"
@@ -35,6 +37,18 @@ Bounded bounded_of(const Interval& x);
 
 /// What holds both.
 Interval hull(const Interval& x, const Interval& y);
+
+inline constexpr double kLargestFloat = double(std::numeric_limits<float>::max());
+
+/// Whether some of it is below 2^-126.
+inline bool may_be_subnormal(const Interval& x) { return x.low < kSmallestFloat && x.high > -kSmallestFloat; }
+
+/// Both ends of a function that grows, or falls, with its argument; `value` too.
+template <class F>
+Interval monotone(const Interval& x, F f) {
+  const double p = f(x.low), q = f(x.high);
+  return {f(x.value), std::min(p, q), std::max(p, q), x.maybe_nan || std::isnan(p) || std::isnan(q)};
+}
 
 /// The operations of op.h over intervals. Every result holds whatever a driver of that arithmetic may compute of
 /// operands that the given intervals hold.

@@ -56,7 +56,8 @@ double cone_width(const Light& l) { return 1 / std::max(0.001, std::cos(double(l
 Interval slope(const Light& l, double lit) {
   const double width = double(float(lit)) - double(float(outer_cosine(l))), off = 0x1p-22;
   if (!(width > off)) return Interval::rounded_once(1 / width);
-  return {1 / width, Interval::rounded_once(1 / (width + off)).low, Interval::rounded_once(1 / (width - off)).high, false};
+  return {1 / width, Interval::rounded_once(1 / (width + off)).low, Interval::rounded_once(1 / (width - off)).high,
+          false};
 }
 Interval nothing(const Light&, uint32_t, size_t) { return Interval::of(0); }
 Interval no_texture(const Light&, uint32_t, size_t) { return Interval::of(-1); }

@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "judge/bounds/interval.h"
-#include "judge/bounds/shading.h"
+#include "judge/bounds/shaded_surface.h"
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 

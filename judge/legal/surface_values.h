@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include "judge/bounds/shading.h"
+#include "judge/bounds/shaded_surface.h"
 #include "judge/legal/bent_normal.h"
 #include "judge/legal/map_range.h"
 #include "judge/legal/possible_surfaces.h"

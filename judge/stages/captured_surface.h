@@ -1,6 +1,6 @@
 #pragma once
 // A capture's planes as the light pass reads them.
-#include "judge/bounds/shading.h"
+#include "judge/bounds/shaded_surface.h"
 #include "judge/legal/light_output.h"
 #include "judge/stages/tally.h"
 #include "oracle/matrices.h"

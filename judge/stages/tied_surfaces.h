@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "judge/bounds/profile.h"
-#include "judge/bounds/shading.h"
+#include "judge/bounds/shaded_surface.h"
 #include "judge/legal/judged_rows.h"
 #include "oracle/capture.h"
 

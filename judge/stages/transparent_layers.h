@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "judge/bounds/program_bounds.h"
-#include "judge/bounds/shading.h"
+#include "judge/bounds/shaded_surface.h"
 #include "judge/legal/blend_range.h"
 #include "judge/legal/possible_surfaces.h"
 #include "judge/legal/surface_values.h"

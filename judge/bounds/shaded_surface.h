@@ -18,9 +18,9 @@ struct ShadedSurface {
   std::array<Bounded, 2> uv{};                ///< the rest where a light program reads it
   std::array<Bounded, 2> uv1{};
   std::array<Bounded, 4> tangent{};
-  std::array<Bounded, 16> user{};             ///< four vectors
-  uint32_t object = 0, material = 0;          ///< from 1 on
-  std::array<int, 2> pixel{};                 ///< column and row from the lower left
+  std::array<Bounded, 16> user{};     ///< four vectors
+  uint32_t object = 0, material = 0;  ///< from 1 on
+  std::array<int, 2> pixel{};         ///< column and row from the lower left
 };
 
 /// A light whose comparison with its threshold may go either way: what the other branch adds to the sum.
