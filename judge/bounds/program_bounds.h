@@ -9,7 +9,7 @@
 
 #include "judge/bounds/program_fields.h"
 #include "judge/bounds/program_lanes.h"
-#include "judge/bounds/shading.h"
+#include "judge/bounds/shaded_surface.h"
 
 namespace trueshade::oracle {
 
@@ -24,6 +24,7 @@ struct LitApart {
   /// 1 where `color` is the only outcome; 0 where a comparison may go either way or the value is undefined, which
   /// ProgramBounds::alone() tells.
   std::vector<uint8_t> one_outcome;
+  std::vector<uint8_t> surely_counts, may_count;  ///< as lit, where Block::counts
 };
 
 /// A light program over the lights of a scene, ready for any surface. Borrows the scene, which must outlive it. Where

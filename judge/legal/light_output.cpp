@@ -79,10 +79,17 @@ LightOutputs::InRange LightOutputs::in_range(const ShadedSurface& surface, uint3
   return {d.high() < range, d.low() < range, d.value < range};
 }
 
+static bool adds(const Bounded3& color) {
+  return std::any_of(color.begin(), color.end(), [](const Bounded& c) { return c.value != 0; });
+}
+
 LightOutputs::Lit LightOutputs::lit(const ShadedSurface& surface, uint32_t light) const {
   const LitRange one = alone(surface, light);
-  const bool adds = std::any_of(one.color.begin(), one.color.end(), [](const Bounded& c) { return c.value != 0; });
-  return {one.lights_low > 0 && (adds || program_.is_users()), one.lights_high > 0};
+  return {one.lights_low > 0 && (adds(one.color) || program_.is_users()), one.lights_high > 0};
+}
+
+LightOutputs::Lit LightOutputs::lit(const LitApart& terms, size_t j) const {
+  return {terms.surely_counts[j] != 0 && (adds(terms.color[j]) || program_.is_users()), terms.may_count[j] != 0};
 }
 
 }  // namespace trueshade::oracle

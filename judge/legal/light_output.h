@@ -3,7 +3,7 @@
 #include <span>
 
 #include "judge/bounds/program_bounds.h"
-#include "judge/bounds/shading.h"
+#include "judge/bounds/shaded_surface.h"
 #include "judge/legal/store.h"
 
 namespace trueshade::oracle {
@@ -43,6 +43,8 @@ class LightOutputs {
     bool surely = false, perhaps = false;
   };
   Lit lit(const ShadedSurface& surface, uint32_t light) const;
+  /// The same of terms() that were made with Block::counts: of their light j.
+  Lit lit(const LitApart& terms, size_t j) const;
 
   /// Many lights' terms in one go, ascending.
   void terms(const ShadedSurface& surface, std::span<const uint32_t> lights, ProgramBounds::Block& block,

@@ -153,6 +153,7 @@ void BlendingJudge::judge_batch() {
     });
   each_row([&](int y) {
     RowWork work;
+    work.block.counts = bool(count_);
     judge_row(y, work);
   });
   if (seen_) before_ = std::move(batch_.back());
@@ -198,7 +199,7 @@ void BlendingJudge::judge_pixel(int x, int y, RowWork& work) {
     const FragmentCount count = count_at(work, i, x);
     const int light = first_ + int(i);
     if (count.least < count.most) may_be_other(x, y, light, count);
-    if (count_) count_lights(x, y, i, count);
+    if (count_) count_lights(x, y, i, j, count, work);
     if (!stored && as_predicted(x, y, i, j, count, work)) {
       if (color_.quantised()) rows_[size_t(y)].stored_values += uint64_t(color_.channels);
       continue;
@@ -241,19 +242,22 @@ FragmentCount BlendingJudge::visible_count(const ShadedSurface& surface, size_t 
 }
 
 /// light.count counts a light once, or as often as it is drawn.
-void BlendingJudge::count_lights(int x, int y, size_t i, const FragmentCount& count) {
+void BlendingJudge::count_lights(int x, int y, size_t i, size_t j, const FragmentCount& count, const RowWork& work) {
   PixelState& p = pixels_[at(x, y)];
-  const auto add = [&](const ShadedSurface& surface, int least, int most) {
-    const LightOutputs::Lit lit = outputs_.lit(surface, scene_light(i));
+  const auto add = [&](const LightOutputs::Lit& lit, int least, int most) {
     p.lights_low += lit.surely ? std::min(least, 1) : 0;
     p.lights_high += lit.perhaps ? most : 0;
   };
+  const std::span<const TiedSurface> tied = tied_at(x, y);
   if (covered_[at(x, y)] != 0) {
-    const FragmentCount drawn = visible_count(surfaces_[at(x, y)], i, count);
-    add(surfaces_[at(x, y)], drawn.least, drawn.most);
+    const ShadedSurface& surface = surfaces_[at(x, y)];
+    const bool stored = multipass_ && first_ == 0;
+    const FragmentCount drawn = visible_count(surface, i, count);
+    add(stored ? outputs_.lit(surface, scene_light(i)) : outputs_.lit(work.lit[tied.size()], j), drawn.least,
+        drawn.most);
   }
-  for (const TiedSurface& t : tied_at(x, y))
-    add(t.surface, 0, visible_count(t.surface, i, {1, 1, 1}).most);  // once for the visible surface, or for each
+  for (size_t t = 0; t < tied.size(); ++t)  // once for the visible surface, or for each
+    add(outputs_.lit(work.lit[t], j), 0, visible_count(tied[t].surface, i, {1, 1, 1}).most);
 }
 
 void BlendingJudge::check_count(int x, int y) {

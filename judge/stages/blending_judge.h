@@ -117,7 +117,7 @@ class BlendingJudge {
   void unchanged(int x, int y, size_t i);
   void judge_last(int x, int y, const Image& last);
   void cover(int x, int y);
-  void count_lights(int x, int y, size_t i, const FragmentCount& count);
+  void count_lights(int x, int y, size_t i, size_t j, const FragmentCount& count, const RowWork& work);
   FragmentCount visible_count(const ShadedSurface& surface, size_t i, const FragmentCount& count) const;
   void check_count(int x, int y);
   bool fits(const Way& way, const PlaneView& view, int x, int y, Match& m) const;

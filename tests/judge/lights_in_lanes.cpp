@@ -134,6 +134,8 @@ TEST_CASE("Lights in lanes have the bounds of each alone, whichever are asked fo
         const LitRange alone = lights.bounds.alone(surface, asked[j], ends, registers);
         CAPTURE(std::string(target), round, asked[j], int(model.falloff), int(model.order), int(model.specular));
         CHECK((lit.one_outcome[j] != 0) == (!alone.undefined && alone.branches.empty()));
+        CHECK(lit.surely_counts[j] == alone.lights_low);
+        CHECK(lit.may_count[j] == alone.lights_high);
         if (lit.one_outcome[j] == 0) ++open;
         for (size_t k = 0; k < 3 && lit.one_outcome[j] != 0; ++k) {
           const Bounded &found = lit.color[j][k], &expected = alone.color[k];
