@@ -239,6 +239,21 @@ TEST_CASE("lenient: pictures of MTL that are missing, and statements of wrong wo
   CHECK(scene.textures.empty());
 }
 
+TEST_CASE("lenient: an opacity map of MTL stays where the colour map beside it is lost") {
+  const ScratchFolder folder;
+  folder.write("holes.png", std::string("\x89PNG\r\n\x1a\n") + "\x01\x02" + "abc\xff" + std::string(4, '\0'));
+  folder.write("a.mtl", "newmtl m\nmap_Kd absent.png\nmap_d holes.png\n");
+  const Scene scene = passed_file(folder.write("m.obj", std::string("mtllib a.mtl\n") + kObj), "a.mtl: line 2");
+  CHECK_STARTS_WITH(the_fault(scene),
+                    "1 picture cannot be read, so what it colours is grey: a.mtl: line 2: absent.png");
+  const Material& m = scene.materials.at(0);
+  CHECK(m.alpha_cutoff > 0.0f);
+  REQUIRE(m.color_map.used());
+  const auto& bytes = scene.textures.at(size_t(m.color_map.texture)).levels.at(0).bytes;
+  const std::vector<uint8_t> texels(bytes.begin(), bytes.end()), grey{188, 188, 188, 0, 188, 188, 188, 255};
+  CHECK(texels == grey);  // sRGB of 0.5; the lower row is the first
+}
+
 TEST_CASE("lenient: what follows a newmtl that is passed over changes no other material") {
   const ScratchFolder folder;
   folder.write("m.mtl", "newmtl red\nKd 1 0 0\nnewmtl m\nKd 0 1 0\nnewmtl red\nKd 0 0 1\n");

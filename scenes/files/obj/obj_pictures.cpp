@@ -14,6 +14,8 @@
 namespace trueshade::obj {
 namespace {
 
+constexpr uint8_t kWhite = 255;
+constexpr uint8_t kHalfAsSrgb = 188;  ///< the sRGB code next to light of 0.5, as lose_map() leaves of a colour
 constexpr size_t kTogether = 8;  ///< pictures that are decoded at a time, each within its share of what may be decoded
 
 /// What may be decoded of so many bytes of textures: a chain of levels adds a third at most.
@@ -207,8 +209,9 @@ int32_t ObjPictures::colors_with_alpha(const MtlDocument& document, const MapSou
     };
     const Image opacity = codes(alpha);
     Image image = opacity;
-    if (map && colors != key_of(document, alpha)) image = codes(*map);
-    if (!map) std::fill(image.texels.begin(), image.texels.end(), uint8_t(255));
+    const bool is_other = map && colors != key_of(document, alpha);
+    const bool is_lost = is_other && unless_lost(*map, [&] { return image = codes(*map), 0; }) < 0;
+    if (!map || is_lost) std::fill(image.texels.begin(), image.texels.end(), map ? kHalfAsSrgb : kWhite);
     int channel = 0;
     for (size_t i = 3; i < opacity.texels.size(); i += 4)
       if (opacity.texels[i] < 255) channel = 3;

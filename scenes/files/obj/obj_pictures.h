@@ -56,7 +56,7 @@ class ObjPictures {
   int32_t colors(const MtlDocument& document, const MapSource& map);
 
   /// The same, its alpha from a second picture: that one's alpha, or its red where it has no alpha below 1. The second
-  /// may be all there is.
+  /// may be all there is. Where the first is lost and this is passed over, its colours are grey.
   int32_t colors_with_alpha(const MtlDocument& document, const MapSource* map, const MapSource& alpha);
 
   /// Normals as they are; or, of a picture without colours (`bump` alone may name one), normals of the heights h in its

@@ -118,8 +118,8 @@ class MtlReader {
     if (keyword == "pr") return m.pr = share("Pr"), true;
     if (keyword == "pm") return m.pm = share("Pm"), true;
     if (keyword != "tr") return false;
-    const float transparency = share("Tr");
-    if (has_d_ != m.line) m.d = 1.0f - transparency;  // where both are given, d is the one that all readers agree on
+    const float transparency = share("Tr"), opacity = transparency < 1.0f ? 1.0f - transparency : 1.0f;  // MeshLab's 1
+    if (has_d_ != m.line) m.d = opacity;  // where both are given, d is the one that all readers agree on
     return true;
   }
 

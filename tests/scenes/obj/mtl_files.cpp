@@ -83,6 +83,8 @@ TEST_CASE("MTL: numbers of a material") {
 
 TEST_CASE("MTL: d and Tr are each other's rest, and d wins") {
   CHECK(material("Tr 0.25").base_color.w == 0.75f);
+  CHECK(material("Tr 1").base_color.w == 1.0f);  // as MeshLab writes what is opaque
+  CHECK(!material("Tr 1").transparent);
   CHECK(material("d 1\nTr 1").base_color.w == 1.0f);
   CHECK(material("Tr 1\nd 1").base_color.w == 1.0f);
   CHECK(material("d -halo 0.5").base_color.w == 0.5f);
