@@ -11,13 +11,12 @@
 #include "cli/preparation.h"
 #include "core/fp_env.h"
 #include "core/image_files/png_codes.h"
-#include "core/memory_cap.h"
 #include "core/srgb.h"
 #include "raster/clusters/clusters.h"
+#include "scenes/both_faces.h"
 #include "scenes/lights_of_ours.h"
 #include "scenes/pipeline/fit_lights.h"
 #include "shading/frame.h"
-#include "shading/frame_memory.h"
 #include "shading/light/power.h"
 
 namespace trueshade {
@@ -338,6 +337,15 @@ void choose_background(const Pipeline& pipeline, ChosenLooks chosen, Scene& scen
   looks.background = text_of(scene.clear);
 }
 
+/// Of OBJ and PLY, which have no word for sides.
+void choose_faces(const Pipeline& pipeline, ChosenLooks chosen, Scene& scene, Looks& looks) {
+  if (!looks.faces) {
+    if (chosen == ChosenLooks::never || scene.photometric || pipeline.geometry.cull_face != CullFace::none) return;
+    looks.faces = "both";
+  }
+  if (looks.faces == "both") light_both_faces(scene);
+}
+
 }  // namespace
 
 void add_looks(CommandTable& table, Looks& looks) {
@@ -347,6 +355,8 @@ void add_looks(CommandTable& table, Looks& looks) {
   add_value(table, "--background", "COLOUR", looks.background,
             "What is seen where nothing is drawn: #rrggbb, black, grey or white as a screen shows them; R,G,B[,A] in "
             "linear light; or none, which is transparent");
+  add_choice(table, "--faces", "CHOICE", looks.faces,
+             "both: materials are lit from behind too, as if double-sided; keep: as the file has them", kFaceChoices);
   add_choice(table, "--lights", "CHOICE", looks.lights,
              "keep the scene's; soft adds light from all sides, add lights of ours; three of ours in their place; or "
              "none; add:FACTOR and soft:FACTOR say how many times as bright",
@@ -366,6 +376,9 @@ void check_looks(const Looks& looks) {
   if (looks.exposure) stops_of(*looks.exposure);
   if (looks.tone_map) curve_of(*looks.tone_map);
   if (looks.lights) light_choice_of(*looks.lights);
+  if (looks.faces &&
+      std::find(std::begin(kFaceChoices), std::end(kFaceChoices), *looks.faces) == std::end(kFaceChoices))
+    throw unknown_name("--faces", "there is no choice", *looks.faces, kFaceChoices);
 }
 
 void set_samples(const Looks& looks, Pipeline& pipeline) {
@@ -387,19 +400,14 @@ bool is_shown_for_looks(const PipelineOptions& options, const Scene& scene) {
 
 PipelineOptions with_smooth_edges(PipelineOptions options, const Scene& scene) {
   constexpr const char* kSmooth = "4";
-  constexpr int64_t kMostPixels = int64_t(1) << 24;
+  constexpr int64_t kMostPixels = int64_t(1) << 23;  // 3840x2160 has less
   const Size size = options.size.value_or(Size{Pipeline().width, Pipeline().height});
   const bool is_lit = options.view.value_or(ImageView::lit) == ImageView::lit;
   if (!is_shown_for_looks(options, scene) || !is_lit || options.looks.samples ||
       int64_t(size.width) * size.height > kMostPixels)
     return options;
-  PipelineOptions smooth = options;
-  smooth.looks.samples = kSmooth;
-  Pipeline pipeline = layered_pipeline(smooth, scene);
-  set_samples(smooth.looks, pipeline);
-  const uint64_t frame = predicted_memory(scene, pipeline, {}, {});
-  const uint64_t file = 4 * uint64_t(size.width) * uint64_t(size.height), used = resident_memory();
-  return used + frame + file <= memory_cap() ? smooth : options;
+  options.looks.samples = kSmooth;
+  return options;
 }
 
 Looks bring_to_looks(const PipelineOptions& options, const Pipeline& pipeline, ChosenLooks chosen, Scene& scene,
@@ -407,6 +415,7 @@ Looks bring_to_looks(const PipelineOptions& options, const Pipeline& pipeline, C
   Looks looks = options.looks;
   const bool takes_choices = is_shown_for_looks(options, scene) && pipeline.view == ImageView::lit;
   if (takes_choices && chosen == ChosenLooks::never) {  // say so, for commands that would choose
+    if (!looks.faces) looks.faces = "keep";
     if (!looks.lights) looks.lights = "keep";
     if (!looks.exposure) looks.exposure = "0";
     if (!looks.background && scene.photometric) looks.background = text_of(scene.clear);
@@ -417,6 +426,7 @@ Looks bring_to_looks(const PipelineOptions& options, const Pipeline& pipeline, C
                 "the image's format " + std::string(info(image_format(pipeline)).name) +
                     " holds no light above 1 that could be rolled off",
                 "add --target rgba16f");
+  choose_faces(pipeline, chosen, scene, looks);
   LightMeter meter(pipeline, options.camera, stored, scene);
   if (!looks.lights && chosen == ChosenLooks::by_scene) looks.lights = missing_lights(meter, scene);
   if (looks.lights) change_lights(*looks.lights, meter, scene);
@@ -438,6 +448,7 @@ namespace {
 
 constexpr std::pair<std::string_view, std::optional<std::string> Looks::*> kTexts[] = {
     {"--background", &Looks::background},
+    {"--faces", &Looks::faces},
     {"--lights", &Looks::lights},
     {"--exposure", &Looks::exposure},
     {"--tone-map", &Looks::tone_map}};

@@ -6,8 +6,8 @@
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
 
-// How a picture is to look: --samples, --background, --lights, --exposure and --tone-map, as one value that commands
-// and the metadata of pictures share (docs/looks.md).
+// How a picture is to look: --samples, --background, --faces, --lights, --exposure and --tone-map, as one value that
+// commands and the metadata of pictures share (docs/looks.md).
 namespace trueshade {
 
 struct ClusteredScene;
@@ -28,7 +28,7 @@ void set_samples(const Looks& looks, Pipeline& pipeline);
 bool is_shown_for_looks(const PipelineOptions& options, const Scene& scene);
 
 /// The options with the samples of smooth edges, where none are asked for, of a model that is shown for its looks in a
-/// picture that is not large and whose frame memory has room for: others are drawn as they are.
+/// picture that is not large: others are drawn as they are. The machine has no say, so that a hash is one everywhere.
 PipelineOptions with_smooth_edges(PipelineOptions options, const Scene& scene);
 
 /// Whether the looks that were not asked for are chosen by the scene.
@@ -36,10 +36,11 @@ enum class ChosenLooks : uint8_t { by_scene, never };
 
 /// Brings a scene that was just loaded to the looks asked for, and returns them with nothing left to choose: what is
 /// passed here again, with ChosenLooks::never, gives the same scene. By the scene, of a model file whose pipeline no
-/// option names, are chosen: lights where the file's own leave its surfaces black, exposure where they would be burnt
-/// or black, and an opaque background. Says in Scene::notes what was chosen. Lights of ours are not yet fitted to the
-/// pipeline. Draws small pictures to measure what the lights do, before set_time(). Error(usage): a tone curve of a
-/// target that cuts light off. `stored`: of a scene in a cache file, which is checked before it is measured.
+/// option names, are chosen: both faces of OBJ and PLY lit, lights where the file's own leave its surfaces black,
+/// exposure where they would be burnt or black, and an opaque background. Says in Scene::notes what was chosen. Lights
+/// of ours are not yet fitted to the pipeline. Draws small pictures to measure what the lights do, before set_time().
+/// Error(usage): a tone curve of a target that cuts light off. `stored`: of a scene in a cache file, which is checked
+/// before it is measured.
 Looks bring_to_looks(const PipelineOptions& options, const Pipeline& pipeline, ChosenLooks chosen, Scene& scene,
                      const ClusteredScene* stored = nullptr);
 

@@ -46,7 +46,7 @@ struct CaptureOptions {
 
 /// How a picture is to look, as texts of options (cli/looks.h). What is absent is not asked for.
 struct Looks {
-  std::optional<std::string> samples, background, lights, exposure, tone_map;
+  std::optional<std::string> samples, background, faces, lights, exposure, tone_map;
 };
 
 /// A scene, as it is seen.

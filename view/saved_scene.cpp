@@ -106,7 +106,8 @@ double degrees_read_as(float radians) {
 
 std::string saved_scene(const SceneFacts& facts, const DrawnPicture& picture, const std::string& path) {
   const FpScope fp;
-  if (const Looks looks = looks_of_text(facts.looks); looks.lights && *looks.lights != "keep")
+  const Looks looks = looks_of_text(facts.looks);
+  if (looks.lights && *looks.lights != "keep")
     throw Error(ErrorKind::usage, path, "no scene file says the lights that --lights " + *looks.lights + " has made",
                 "open the scene with --lights keep");
   const SceneReference known = facts.reference ? *facts.reference : SceneReference{facts.spec, {}, {}};
@@ -119,6 +120,7 @@ std::string saved_scene(const SceneFacts& facts, const DrawnPicture& picture, co
   for (const std::vector<LightChange>* list : {&known.changes, &picture.state.changes})
     for (const LightChange& change : *list) changes += (changes.empty() ? "\n    " : ",\n    ") + text_of(change);
   if (!changes.empty()) text += ",\n  \"light_changes\": [" + changes + "\n  ]";
+  if (looks.faces) text += ",\n  \"faces\": " + json_text_of(*looks.faces);
   if (facts.reference || !facts.looks.empty()) {
     text += ",\n  \"clear\": [";
     for (int c = 0; c < 4; ++c) text += (c == 0 ? "" : ", ") + number_text(double(facts.clear[c]));

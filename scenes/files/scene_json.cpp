@@ -1,6 +1,7 @@
 #include "scenes/files/scene_json.h"
 
 #include "core/error.h"
+#include "scenes/both_faces.h"
 #include "scenes/files/light_json.h"
 #include "scenes/files/object_json.h"
 #include "scenes/files/reference_json.h"
@@ -13,9 +14,9 @@
 namespace trueshade {
 namespace {
 
-constexpr std::string_view kRootKeys[] = {"version", "camera", "clear",        "textures", "materials",
-                                          "objects", "lights", "scene",        "pipeline", "fps",
-                                          "$schema", "time",   "light_changes"};
+constexpr std::string_view kRootKeys[] = {"version", "camera", "clear",         "textures", "materials",
+                                          "objects", "lights", "scene",         "pipeline", "fps",
+                                          "$schema", "time",   "light_changes", "faces"};
 constexpr std::string_view kCameraKeys[] = {"eye", "target",          "up",    "fov_deg",       "fov_axis", "near",
                                             "far", "clip_from_world", "steps", "interpolation", "repeat"};
 constexpr std::string_view kMatrixCameraKeys[] = {"eye", "clip_from_world"};
@@ -109,6 +110,8 @@ Scene scene_from_json(std::string_view text, const std::string& path, const Scen
     if (const auto list = root.find("objects")) objects.read_objects(*list);
     objects.finish();
   }
+  if (const auto faces = root.find("faces"); faces && kFaceChoices[faces->choice(kFaceChoices)] == "both")
+    light_both_faces(scene);
   const auto camera = root.find("camera");
   if (camera) {
     scene.camera = Camera();

@@ -175,14 +175,39 @@ TEST_CASE("A model's PNGs and pages have smooth edges, and what is to be judged 
   };
   CHECK(big("4G").exit_code == 0);
   CHECK(has(pictures.run({"info", "big.png"}).out, R"("samples":2)"));
-  CHECK(big("450M").exit_code == 0);  // 4 samples a pixel do not fit
-  CHECK(has(pictures.run({"info", "big.png"}).out, R"("samples":1)"));
+  const Outcome small = big("450M");  // 4 samples a pixel do not fit, and how many there are is not memory's to choose
+  CHECK(small.exit_code == 4);
+  CHECK(has(small.err, "name fewer --samples, or raise --max-memory"));
 
   pictures.picture("lit.gltf", {}, "smooth.png");
   pictures.write_other("other.png", "smooth.png");
   const Outcome outcome = pictures.run({"compare", "smooth.png", "other.png"});
   CHECK(outcome.exit_code == 1);
   CHECK(has(outcome.out + outcome.err, "--samples 1 draws one that has"));
+}
+
+TEST_CASE("OBJ files are lit on both faces, unless --faces keeps them as they are or their normals tell no front") {
+  const Pictures pictures;
+  const std::string corners = "v -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\n", from_behind = "f 4//1 3//1 2//1 1//1\n";
+  pictures.write("sheet.obj", corners + "vn 0 0 -1\n" + from_behind);
+  pictures.write("otherwise.obj", corners + "vn 0 0 1\n" + from_behind);
+  const auto seen = [](const char* eye, std::vector<std::string> more = {}) {
+    more.insert(more.end(), {"--eye", eye, "--target", "0,1,0", "--samples", "1"});
+    return more;
+  };
+  const char *const front = "0,1,-5", *const behind = "0,1,5";
+  CHECK(pictures.hash("sheet.obj", seen(behind)) == pictures.hash("sheet.obj", seen(behind, {"--faces", "both"})));
+  CHECK(pictures.hash("sheet.obj", seen(front)) == pictures.hash("sheet.obj", seen(front, {"--faces", "keep"})));
+  CHECK(pictures.hash("otherwise.obj", seen(front)) == pictures.hash("otherwise.obj", seen(front, {"--faces", "keep"})));
+  const uint32_t lit = pictures.picture("sheet.obj", seen(behind), "both.png").code(30, 22, 1);
+  CHECK(lit > 2 * pictures.picture("sheet.obj", seen(behind, {"--faces", "keep"})).code(30, 22, 1));
+  CHECK(has(pictures.looks_of("both.png"), "--faces both"));
+  CHECK(pictures.run({"compare", "both.png", "both.png"}).exit_code == 0);
+
+  pictures.write("of_file.json", R"({"version": 1, "scene": "sheet.obj", "faces": "both"})");
+  pictures.write("kept.json", R"({"version": 1, "scene": "sheet.obj", "faces": "keep"})");
+  CHECK(pictures.hash("of_file.json", seen(behind)) == pictures.hash("kept.json", seen(behind, {"--faces", "both"})));
+  CHECK(pictures.hash("of_file.json", seen(behind)) != pictures.hash("kept.json", seen(behind)));
 }
 
 TEST_CASE("A background is the colour that a PNG shows, whatever the target, the exposure and the curve") {

@@ -133,6 +133,9 @@ TEST_CASE("A saved scene keeps a background that was asked for, and lights that 
   picture.pipeline = kept.facts.pipeline;
   CHECK_THAT(saved_scene(kept.facts, picture, folder.path("saved.json")),
              Catch::Contains("\"clear\": [0.25, 0.5, 0.75, 1]"));
+  looks += " --faces both";
+  CHECK_THAT(saved_scene(opened_scene(source, files).facts, picture, folder.path("saved.json")),
+             Catch::Contains("\"faces\": \"both\""));
   looks += " --lights add";
   const OpenedScene added = opened_scene(source, files);
   CHECK_THROWS_WITH(saved_scene(added.facts, picture, folder.path("saved.json")),
