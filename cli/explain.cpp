@@ -129,6 +129,17 @@ std::string record_of(const std::string& path) {
   return record.empty() || words.empty() ? record : record + ',' + words;
 }
 
+/// What a picture of ours was brought to; nothing of one of others.
+Looks looks_of_picture(const std::string& path) {
+  if (!has_ending(path, ".png") && !has_ending(path, ".exr")) return {};
+  try {
+    for (const auto& [key, value] : read_image_info(path).metadata)
+      if (key == "trueshade:looks") return looks_of_text(value);
+  } catch (const Error&) {
+  }
+  return {};
+}
+
 /// What OpenGL allows the pixel to hold, and the class of what it holds, which comes back.
 oracle::PixelClass add_legal(const Question& q, const Image& given, double difference, Account& out) {
   oracle::Capture capture;
@@ -198,7 +209,9 @@ void explain(const ExplainOptions& options) {
       pipeline_of(options.against ? PipelineOptions(options) : with_smooth_edges(options, scene), scene);
   const bool other_view = pipeline.view != ImageView::lit;
   pipeline.view = ImageView::lit;
-  bring_to_looks(options, pipeline, ChosenLooks::by_scene, scene);
+  PipelineOptions looked_at = options;  // a picture of ours says how it looks, another has the file's own
+  if (options.against && looks_text(options.looks).empty()) looked_at.looks = looks_of_picture(*options.against);
+  bring_to_looks(looked_at, pipeline, options.against ? ChosenLooks::never : ChosenLooks::by_scene, scene);
   show(scene, options.camera, pipeline, options.time);
   if (options.x >= pipeline.width || options.y >= pipeline.height)
     throw Error(ErrorKind::usage, "--pixel",

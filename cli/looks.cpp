@@ -13,6 +13,7 @@
 #include "core/image_files/png_codes.h"
 #include "core/srgb.h"
 #include "raster/clusters/clusters.h"
+#include "scene_cache/cached_scene.h"
 #include "scenes/both_faces.h"
 #include "scenes/lights_of_ours.h"
 #include "scenes/pipeline/fit_lights.h"
@@ -337,13 +338,19 @@ void choose_background(const Pipeline& pipeline, ChosenLooks chosen, Scene& scen
   looks.background = text_of(scene.clear);
 }
 
-/// Of OBJ and PLY, which have no word for sides.
-void choose_faces(const Pipeline& pipeline, ChosenLooks chosen, Scene& scene, Looks& looks) {
-  if (!looks.faces) {
+/// Both faces of OBJ and PLY, which have no word for sides.
+void choose_faces(const Pipeline& pipeline, ChosenLooks chosen, const CachedScene* stored, Scene& scene, Looks& looks) {
+  const bool is_asked = looks.faces.has_value();
+  if (!is_asked) {
     if (chosen == ChosenLooks::never || scene.photometric || pipeline.geometry.cull_face != CullFace::none) return;
     looks.faces = "both";
   }
-  if (looks.faces == "both") light_both_faces(scene);
+  if (looks.faces != "both") return;
+  const size_t kept = light_both_faces(scene, stored != nullptr ? std::span(stored->is_wound) : std::span<uint8_t>());
+  if (is_asked && kept > 0)
+    scene.notes.push_back("Of " + std::to_string(kept) +
+                          " materials --faces both lights one face as before, because normals of meshes that have them "
+                          "do not tell which face is the front");
 }
 
 }  // namespace
@@ -411,7 +418,7 @@ PipelineOptions with_smooth_edges(PipelineOptions options, const Scene& scene) {
 }
 
 Looks bring_to_looks(const PipelineOptions& options, const Pipeline& pipeline, ChosenLooks chosen, Scene& scene,
-                     const ClusteredScene* stored) {
+                     const CachedScene* stored) {
   Looks looks = options.looks;
   const bool takes_choices = is_shown_for_looks(options, scene) && pipeline.view == ImageView::lit;
   if (takes_choices && chosen == ChosenLooks::never) {  // say so, for commands that would choose
@@ -426,8 +433,8 @@ Looks bring_to_looks(const PipelineOptions& options, const Pipeline& pipeline, C
                 "the image's format " + std::string(info(image_format(pipeline)).name) +
                     " holds no light above 1 that could be rolled off",
                 "add --target rgba16f");
-  choose_faces(pipeline, chosen, scene, looks);
-  LightMeter meter(pipeline, options.camera, stored, scene);
+  choose_faces(pipeline, chosen, stored, scene, looks);
+  LightMeter meter(pipeline, options.camera, stored != nullptr ? stored->clusters.get() : nullptr, scene);
   if (!looks.lights && chosen == ChosenLooks::by_scene) looks.lights = missing_lights(meter, scene);
   if (looks.lights) change_lights(*looks.lights, meter, scene);
   choose_exposure(pipeline, chosen, meter, scene, looks);

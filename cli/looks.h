@@ -10,7 +10,7 @@
 // commands and the metadata of pictures share (docs/looks.md).
 namespace trueshade {
 
-struct ClusteredScene;
+struct CachedScene;
 
 /// `soft` and `add` with how many times as bright the lights are that they add: `add:2.5`.
 inline constexpr std::string_view kLightChoices[] = {"keep", "soft", "add", "three", "none"};
@@ -42,7 +42,7 @@ enum class ChosenLooks : uint8_t { by_scene, never };
 /// Error(usage): a tone curve of a target that cuts light off. `stored`: of a scene in a cache file, which is checked
 /// before it is measured.
 Looks bring_to_looks(const PipelineOptions& options, const Pipeline& pipeline, ChosenLooks chosen, Scene& scene,
-                     const ClusteredScene* stored = nullptr);
+                     const CachedScene* stored = nullptr);
 
 /// Of looks with nothing left to choose; what does nothing where they have no exposure.
 DisplayTransform display_of(const Looks& looks);

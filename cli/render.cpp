@@ -83,7 +83,7 @@ SceneToRender::SceneToRender(const RenderOptions& given, const Execution& execut
   RenderOptions seen = options;
   if (options.turntable)
     seen.camera = turntable(scene, options.camera, *options.turntable, aspect_of(pipeline)).front();
-  options.looks = bring_to_looks(seen, pipeline, ChosenLooks::by_scene, scene, cached.clusters.get());
+  options.looks = bring_to_looks(seen, pipeline, ChosenLooks::by_scene, scene, &cached);
   fit_lights_of_ours(scene, pipeline);
   if (is_streamed(options, pipeline)) return;  // its bands are as high as memory allows
   validate_drawn_size(pipeline, options.execution.region);

@@ -19,6 +19,7 @@
 #include "scene_cache/origin.h"
 #include "scene_cache/scene_values.h"
 #include "scene_cache/tables.h"
+#include "scenes/both_faces.h"
 #include "scenes/files/content/scene_files.h"
 
 namespace trueshade {
@@ -81,7 +82,9 @@ void write_cache(const std::string& path, const SceneOrigin& origin, Scene& scen
   if (digested) digests = digests_of(scene);
   tables(uint64_t(scene.meshes.size()));
   std::vector<CullingData> culled;
+  std::vector<uint8_t> is_wound;
   for (Mesh& mesh : scene.meshes) {
+    is_wound.push_back(is_wound_by_normals(mesh));
     ClusteredMesh clusters = cluster_mesh(mesh);
     culled.push_back({std::move(clusters.clusters), std::move(clusters.boxes)});
     tables(mesh);
@@ -89,6 +92,7 @@ void write_cache(const std::string& path, const SceneOrigin& origin, Scene& scen
     mesh = Mesh();
   }
   tables(culled);
+  tables(is_wound);
   tables(scene);
   tables(digests);
   file.finish(tables.bytes());
@@ -132,7 +136,7 @@ std::optional<CachedScene> read_cache(const std::string& path, const std::string
   const auto origin = tables.taken<SceneOrigin>();
   if (origin.spec != spec || !within(origin.limits, limits) || !is_unchanged(origin)) return std::nullopt;
   require_memory(file->tables().size(), spec, "the scene");
-  CachedScene cached{{}, std::make_unique<ClusteredScene>(), {}};
+  CachedScene cached{{}, std::make_unique<ClusteredScene>(), {}, {}};
   Scene& scene = cached.scene;
   const auto meshes = tables.taken<uint64_t>();
   for (uint64_t i = 0; i < meshes; ++i) {
@@ -145,6 +149,8 @@ std::optional<CachedScene> read_cache(const std::string& path, const std::string
     cached.clusters->meshes[i].clusters = std::move(culled[i].clusters);
     cached.clusters->meshes[i].boxes = std::move(culled[i].boxes);
   }
+  cached.is_wound = tables.taken<std::vector<uint8_t>>();
+  if (cached.is_wound.size() != meshes) return std::nullopt;
   tables(scene);
   if (!names_exist(scene))
     throw Error(ErrorKind::bad_input, path, "it names what it does not hold, so it is not of this program",
@@ -187,7 +193,7 @@ CachedScene cached_scene(const std::string& folder, const std::string& spec, con
                          const SceneParts& parts, const std::function<Scene()>& load) {
   const FpScope fp;
   check_folder(folder);
-  if (spec == "-") return {load(), nullptr, {}};
+  if (spec == "-") return {load(), nullptr, {}, {}};
   const std::string whole_spec = absolute_spec(spec) + text_of(parts, limits), path = cache_path(folder, whole_spec);
   if (auto cached = read_cache(path, whole_spec, limits)) return std::move(*cached);
 

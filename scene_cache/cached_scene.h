@@ -13,7 +13,8 @@ namespace trueshade {
 struct CachedScene {
   Scene scene;
   std::unique_ptr<ClusteredScene> clusters;  ///< null: not made yet
-  std::string note;                          ///< why there is no cache file, a sentence without full stop; empty
+  std::vector<uint8_t> is_wound{};           ///< is_wound_by_normals() of each mesh, with the clusters
+  std::string note{};                        ///< why there is no cache file, a sentence without full stop; empty
 };
 
 /// The scene `spec` of load_scene() with these limits and parts, from the cache file in `folder` if there is one that

@@ -4,11 +4,9 @@
 #include <vector>
 
 #include "core/fp_env.h"
+#include "scenes/placement.h"
 
 namespace trueshade {
-namespace {
-
-/// Whether triangles run counter-clockwise as seen from where their normals point, but for a few of them.
 bool is_wound_by_normals(const Mesh& mesh) {
   constexpr size_t kMost = 65536, kFew = 50;  // triangles looked at; one in so many may be otherwise
   const size_t triangles = mesh.indices.size() / 3, step = triangles / kMost + 1;
@@ -26,15 +24,21 @@ bool is_wound_by_normals(const Mesh& mesh) {
   return otherwise * kFew <= looked_at;
 }
 
-}  // namespace
-
-void light_both_faces(Scene& scene) {
-  std::vector<uint8_t> is_wound(scene.meshes.size()), keeps(scene.materials.size());
-  for (size_t m = 0; m < scene.meshes.size(); ++m) is_wound[m] = is_wound_by_normals(scene.meshes[m]);
+size_t light_both_faces(Scene& scene, std::span<const uint8_t> is_wound) {
+  std::vector<uint8_t> found, keeps(scene.materials.size());
+  if (is_wound.size() != scene.meshes.size()) {
+    for (const Mesh& mesh : scene.meshes) found.push_back(is_wound_by_normals(mesh));
+    is_wound = found;
+  }
   for (const Instance& drawn : scene.instances)
-    if (is_wound[drawn.mesh] == 0) keeps[drawn.material] = 1;
+    if (is_wound[drawn.mesh] == 0 || mirrors(drawn.world_from_object) != drawn.mirrored) keeps[drawn.material] = 1;
+  size_t kept = 0;
   for (size_t m = 0; m < scene.materials.size(); ++m)
-    if (keeps[m] == 0) scene.materials[m].double_sided = true;
+    if (keeps[m] == 0)
+      scene.materials[m].double_sided = true;
+    else
+      kept += scene.materials[m].double_sided ? 0 : 1;
+  return kept;
 }
 
 }  // namespace trueshade

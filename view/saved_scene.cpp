@@ -110,7 +110,7 @@ std::string saved_scene(const SceneFacts& facts, const DrawnPicture& picture, co
   if (looks.lights && *looks.lights != "keep")
     throw Error(ErrorKind::usage, path, "no scene file says the lights that --lights " + *looks.lights + " has made",
                 "open the scene with --lights keep");
-  const SceneReference known = facts.reference ? *facts.reference : SceneReference{facts.spec, {}, {}};
+  const SceneReference known = facts.reference ? *facts.reference : SceneReference{facts.spec, {}, {}, false};
   const bool stands = picture.state.time != 0.0;
   std::string text = "{\n  \"version\": 1,\n  \"scene\": " + json_text_of(way_to(known.scene, path));
   if (known.time || stands) text += ",\n  \"time\": " + number_text(known.time ? *known.time : picture.state.time);
@@ -120,7 +120,7 @@ std::string saved_scene(const SceneFacts& facts, const DrawnPicture& picture, co
   for (const std::vector<LightChange>* list : {&known.changes, &picture.state.changes})
     for (const LightChange& change : *list) changes += (changes.empty() ? "\n    " : ",\n    ") + text_of(change);
   if (!changes.empty()) text += ",\n  \"light_changes\": [" + changes + "\n  ]";
-  if (looks.faces) text += ",\n  \"faces\": " + json_text_of(*looks.faces);
+  if (known.both_faces || looks.faces == "both") text += ",\n  \"faces\": \"both\"";
   if (facts.reference || !facts.looks.empty()) {
     text += ",\n  \"clear\": [";
     for (int c = 0; c < 4; ++c) text += (c == 0 ? "" : ", ") + number_text(double(facts.clear[c]));

@@ -42,7 +42,7 @@ class SurfaceValues {
 
   Range depth() const;                                               ///< as the depth buffer may hold it
   Range attribute(size_t index, Interpolation interpolation) const;  ///< a ValueIndex plus a component
-  Range normal(int k, Interpolation interpolation) const;      ///< turned to the viewer, bent where there is a map
+  Range normal(int k, Interpolation interpolation) const;      ///< bent where there is a map, then turned to the viewer
   Range base_color(int k, Interpolation interpolation) const;  ///< vertex colour times texel times base colour
   Range albedo(const Range& base) const;                       ///< of the base colour: less what is metal
   Range specular(const Range& base, int k) const;

@@ -11,7 +11,7 @@ inline bool is_turned(const View& view, uint32_t instance, bool positive_area) {
   return faces.double_sided(instance) && !is_front(faces.of(instance), positive_area != view.window.upper_left);
 }
 
-/// Turns the normal of a pixel round, before a map bends it.
+/// Turns the normal of a pixel round, after a map has bent it.
 inline void turn_normal(SurfaceTile& out, int pixel) {
   for (int c = kNormal; c < kNormal + 3; ++c) out.plane[c][pixel] = -out.plane[c][pixel];
 }

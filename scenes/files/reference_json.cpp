@@ -3,6 +3,7 @@
 #include <unordered_map>
 
 #include "core/error.h"
+#include "scenes/both_faces.h"
 #include "scenes/files/content/scene_files.h"
 
 namespace trueshade {
@@ -39,6 +40,11 @@ std::string referred_path(const json::Node& node, const std::string& path, const
 
 std::vector<json::ObjectKeys> reference_json_keys() { return {kChange}; }
 
+bool lights_both_faces(const json::Node& root) {
+  const auto faces = root.find("faces");
+  return faces && kFaceChoices[faces->choice(kFaceChoices)] == "both";
+}
+
 std::optional<SceneReference> reference_from_json(const json::Node& root, const std::string& path,
                                                   const SceneLimits& limits) {
   const auto scene = root.find("scene");
@@ -53,6 +59,7 @@ std::optional<SceneReference> reference_from_json(const json::Node& root, const 
   SceneReference reference;
   reference.scene = referred_path(*scene, path, limits);
   if (const auto time = root.find("time")) reference.time = time->number(-kLatestTime, kLatestTime);
+  reference.both_faces = lights_both_faces(root);
   const auto changes = root.find("light_changes");
   if (!changes) return reference;
   const size_t count = changes->array(0, SIZE_MAX).size();

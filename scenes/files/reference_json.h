@@ -22,7 +22,11 @@ struct SceneReference {
   std::string scene;                 ///< as load_scene() takes it; a file by its path from here
   std::vector<LightChange> changes;  ///< in their order
   std::optional<double> time;        ///< the other scene as it stands then, without what moves
+  bool both_faces = false;           ///< its materials are lit on both faces
 };
+
+/// Whether a scene file's root says `both` by its key "faces".
+bool lights_both_faces(const json::Node& root);
 
 /// Nothing where the root has no key "scene". `path` is the file's own.
 std::optional<SceneReference> reference_from_json(const json::Node& root, const std::string& path,

@@ -110,8 +110,7 @@ Scene scene_from_json(std::string_view text, const std::string& path, const Scen
     if (const auto list = root.find("objects")) objects.read_objects(*list);
     objects.finish();
   }
-  if (const auto faces = root.find("faces"); faces && kFaceChoices[faces->choice(kFaceChoices)] == "both")
-    light_both_faces(scene);
+  if (lights_both_faces(root)) light_both_faces(scene);
   const auto camera = root.find("camera");
   if (camera) {
     scene.camera = Camera();

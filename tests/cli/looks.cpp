@@ -98,6 +98,8 @@ class Pictures {
     color.set_code(30, 25, 0, color.code(30, 25, 0) + 1);
     write_image(folder_.path(name), color, planes, {});
   }
+  /// As another program would write it.
+  void write_bare(const std::string& name, const Image& color) const { write_image(folder_.path(name), color, {}, {}); }
   std::string looks_of(const std::string& file) const {
     for (const auto& [key, value] : read_image_info(folder_.path(file)).metadata)
       if (key == "trueshade:looks") return value;
@@ -192,22 +194,60 @@ TEST_CASE("OBJ files are lit on both faces, unless --faces keeps them as they ar
   pictures.write("sheet.obj", corners + "vn 0 0 -1\n" + from_behind);
   pictures.write("otherwise.obj", corners + "vn 0 0 1\n" + from_behind);
   const auto seen = [](const char* eye, std::vector<std::string> more = {}) {
-    more.insert(more.end(), {"--eye", eye, "--target", "0,1,0", "--samples", "1"});
+    more.insert(more.end(), {"--eye", eye, "--look-at", "0,1,0", "--samples", "1"});
     return more;
   };
   const char *const front = "0,1,-5", *const behind = "0,1,5";
   CHECK(pictures.hash("sheet.obj", seen(behind)) == pictures.hash("sheet.obj", seen(behind, {"--faces", "both"})));
   CHECK(pictures.hash("sheet.obj", seen(front)) == pictures.hash("sheet.obj", seen(front, {"--faces", "keep"})));
-  CHECK(pictures.hash("otherwise.obj", seen(front)) == pictures.hash("otherwise.obj", seen(front, {"--faces", "keep"})));
+  CHECK(pictures.hash("otherwise.obj", seen(front)) ==
+        pictures.hash("otherwise.obj", seen(front, {"--faces", "keep"})));
   const uint32_t lit = pictures.picture("sheet.obj", seen(behind), "both.png").code(30, 22, 1);
-  CHECK(lit > 2 * pictures.picture("sheet.obj", seen(behind, {"--faces", "keep"})).code(30, 22, 1));
+  CHECK(2 * lit > 3 * pictures.picture("sheet.obj", seen(behind, {"--faces", "keep"})).code(30, 22, 1));
   CHECK(has(pictures.looks_of("both.png"), "--faces both"));
-  CHECK(pictures.run({"compare", "both.png", "both.png"}).exit_code == 0);
+  Image wrong = pictures.read("both.png");
+  wrong.set_code(30, 22, 1, lit - 40);
+  pictures.write_bare("other.png", wrong);
+  const Outcome judged = pictures.run({"compare", "both.png", "other.png"});  // draws anew by the looks in the file
+  CHECK(judged.exit_code == 1);
+  CHECK(has(judged.out, "judged by the reference's scene: 1 pixel is in no legal set"));
 
   pictures.write("of_file.json", R"({"version": 1, "scene": "sheet.obj", "faces": "both"})");
   pictures.write("kept.json", R"({"version": 1, "scene": "sheet.obj", "faces": "keep"})");
   CHECK(pictures.hash("of_file.json", seen(behind)) == pictures.hash("kept.json", seen(behind, {"--faces", "both"})));
   CHECK(pictures.hash("of_file.json", seen(behind)) != pictures.hash("kept.json", seen(behind)));
+  for (const char* scale : {"[1, 1, 1]", "[-1, 1, 1]"}) {  // one that mirrors without saying so has no known front
+    INFO(scale);
+    const auto scene = [&](const char* faces) {
+      return R"({"version": 1, "camera": {"eye": [0, 1, -5], "target": [0, 1, 0]}, "faces": ")" + std::string(faces) +
+             R"(", "objects": [{"geometry": "sheet.obj", "scale": )" + scale +
+             R"(}], "lights": [{"type": "directional", "direction": [0, 0, 1]}]})";
+    };
+    pictures.write("both.json", scene("both"));
+    pictures.write("keep.json", scene("keep"));
+    CHECK(pictures.hash("both.json", {}) == pictures.hash("keep.json", {}));
+  }
+  CHECK(
+      has(pictures.render("otherwise.obj", {"--faces", "both", "--hash"}).err, "do not tell which face is the front"));
+  CHECK(pictures.hash("sheet.obj", seen(behind, {"--cache", "kept"})) == pictures.hash("sheet.obj", seen(behind)));
+  CHECK(pictures.hash("sheet.obj", seen(behind, {"--cache", "kept"})) == pictures.hash("sheet.obj", seen(behind)));
+}
+
+TEST_CASE("A picture that explain is given is explained as it says that it looks, or as the file is") {
+  const Pictures pictures;
+  pictures.write("sheet.obj", "v -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\nvn 0 0 -1\nf 4//1 3//1 2//1 1//1\n");
+  const auto explained = [&](const char* picture) {
+    const Outcome outcome = pictures.run({"explain", "sheet.obj", "--eye", "0,1,5", "--look-at", "0,1,0", "--size",
+                                          "60x45", "--pixel", "30,22", "--against", picture});
+    INFO(outcome.out << outcome.err);
+    return has(outcome.out, "\"turned\"") || has(outcome.out, "turned ");
+  };
+  const std::vector<std::string> from_behind{"--eye", "0,1,5", "--look-at", "0,1,0", "--samples", "1"};
+  pictures.picture("sheet.obj", from_behind, "ours.png");
+  CHECK(explained("ours.png"));
+  Image bare = pictures.read("ours.png");
+  pictures.write_bare("engine.png", bare);
+  CHECK_FALSE(explained("engine.png"));
 }
 
 TEST_CASE("A background is the colour that a PNG shows, whatever the target, the exposure and the curve") {

@@ -136,6 +136,9 @@ TEST_CASE("A saved scene keeps a background that was asked for, and lights that 
   looks += " --faces both";
   CHECK_THAT(saved_scene(opened_scene(source, files).facts, picture, folder.path("saved.json")),
              Catch::Contains("\"faces\": \"both\""));
+  SceneFacts again = kept.facts;  // of a file that says it already
+  again.looks = " --faces keep", again.reference = SceneReference{"builtin:cornell", {}, {}, true};
+  CHECK_THAT(saved_scene(again, picture, folder.path("saved.json")), Catch::Contains("\"faces\": \"both\""));
   looks += " --lights add";
   const OpenedScene added = opened_scene(source, files);
   CHECK_THROWS_WITH(saved_scene(added.facts, picture, folder.path("saved.json")),
