@@ -46,8 +46,9 @@ struct Result {
   std::optional<std::pair<int, double>> score;  ///< of which standard
 };
 
-enum class Verdict { none, slower, faster, too_few };
-constexpr std::string_view kVerdicts[] = {"no difference beyond noise", "slower", "faster", "too few frames to tell"};
+enum class Verdict { none, slower, faster, too_few, busy };
+constexpr std::string_view kVerdicts[] = {"no difference beyond noise", "slower", "faster", "too few frames to tell",
+                                          "not to be quoted"};
 
 struct ComparedRow {
   RowName name;
@@ -147,7 +148,10 @@ Comparison compared(Result before, Result after) {
     }
     const Row& now = *other->second;
     const RatioInterval ratio = ratio_interval(row.ms, now.ms, kConfidence);
-    c.rows.push_back({row.name, row.median(), now.median(), ratio, verdict_of(ratio), row.hash == now.hash});
+    Verdict verdict = verdict_of(ratio);
+    const bool differs = verdict == Verdict::slower || verdict == Verdict::faster;
+    if (differs && !(c.before.reasons.empty() && c.after.reasons.empty())) verdict = Verdict::busy;
+    c.rows.push_back({row.name, row.median(), now.median(), ratio, verdict, row.hash == now.hash});
     others.erase(other);
   }
   for (const Row& row : c.after.rows)
@@ -179,7 +183,7 @@ std::string comparison_text(const Comparison& c) {
                  ? ""
                  : formatted(row.ratio.low, " (%.3f to ") + formatted(row.ratio.high, "%.3f)")) +
             ": " + std::string(kVerdicts[size_t(row.verdict)]) + '\n';
-    differing += row.verdict == Verdict::slower || row.verdict == Verdict::faster;
+    differing += row.verdict == Verdict::slower || row.verdict == Verdict::faster || row.verdict == Verdict::busy;
   }
   for (const auto& [file, row] : c.lonely) text += "  only " + file + " has " + row.scene + ", " + row.who + '\n';
   if (have_scores(c))
@@ -188,11 +192,12 @@ std::string comparison_text(const Comparison& c) {
             formatted(c.after.score->second / c.before.score->second, "B's is %.3f times A's\n");
   text += '\n' + std::to_string(differing) + " of " + std::to_string(c.rows.size()) +
           " rows differ beyond noise: with " + formatted(100 * kConfidence, "%.0f") + " % confidence by more than " +
-          formatted(100 * (kBetweenRuns - 1), "%.0f %%\n");
-  if (!c.before.reasons.empty() || !c.after.reasons.empty())
-    text +=
-        "what else the machines did may be the cause: figures of one of the files, or of both, are not to be quoted\n";
-  return text;
+          formatted(100 * (kBetweenRuns - 1), "%.0f %%");
+  const bool is_busy = !c.before.reasons.empty() || !c.after.reasons.empty();
+  return text + (is_busy
+                     ? " from frame to frame,\nwhich tells nothing of the programs: what else the machines did may be "
+                       "the cause (not to be quoted, above)\n"
+                     : "\n");
 }
 
 std::string result_json(const Result& result) {
@@ -233,6 +238,9 @@ bool compared_results(const BenchOptions& options) {
       other = file;
   }
   if (results.empty()) return false;
+  if (!other.empty() && !std::filesystem::exists(other))
+    throw Error(ErrorKind::io, other, "No such file or directory",
+                "name a file that `trueshade bench --json FILE` wrote");
   if (!other.empty())
     throw Error(ErrorKind::bad_input, other, "this is no result of bench, and " + results.front().first + " is one",
                 "name two files that `trueshade bench --json FILE` wrote");

@@ -178,8 +178,8 @@ double million_pixels_per_s(const SceneTime& s) { return double(s.stats.pixels) 
 
 std::string rate_text(const SceneTime& s) {
   const auto rate = [](double value) { return formatted(value, value < 10.0 ? "%.2f" : "%.0f"); };
-  return rate(million_triangles_per_s(s)) + " million triangles submitted and " + rate(million_pixels_per_s(s)) +
-         " million pixels a second";
+  return rate(million_triangles_per_s(s)) + " million triangles submitted a second and " +
+         rate(million_pixels_per_s(s)) + " million pixels a second";
 }
 
 int SceneTime::scheduled_tile(int cores) const {
@@ -211,9 +211,7 @@ std::string bench_text(const SceneTime& s, const BenchResult& bench) {
           " pixels covered; " + std::to_string(f.lights_tested) + " lights tested, " +
           std::to_string(f.tile_pixel_lights) + " pixel-lights left by tiles, " +
           std::to_string(f.evaluated_pixel_lights) + " computed, " + std::to_string(f.lit_pixel_lights) + " lit; " +
-          formatted(s.peak_mib, "%.0f") + " MiB at most, " +
-          formatted(per(s.peak_mib * 1048576.0, f.triangles), "%.1f") + " bytes a triangle, " +
-          formatted(per(s.peak_mib * 1048576.0, f.pixels), "%.0f") + " a pixel\n";
+          formatted(s.peak_mib, "%.0f") + " MiB of memory at most\n";
   text += "  " + formatted(double(s.bytes.stored) * 1e-6, "%.1f") + " MB stored, " +
           formatted(double(s.bytes.clusters) * 1e-6, "%.1f") + " MB of clusters drawn\n";
   text += schedule_text(s);

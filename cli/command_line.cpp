@@ -113,7 +113,8 @@ class CommandReader {
   }
 
   const std::string& value_behind(const OptionRow& row, const std::string& name) {
-    if (next_ == words_.size()) throw usage(name, "its value is missing", "add it: " + name + ' ' + row.value_name);
+    if (next_ == words_.size() || is_spelled(words_[next_]))
+      throw usage(name, "its value is missing", "add it: " + name + ' ' + row.value_name);
     return words_[next_++];
   }
 

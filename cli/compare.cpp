@@ -28,6 +28,12 @@ bool is_folder(const std::string& path) {
   return fs::is_directory(path, unknown);
 }
 
+bool lies_within(const std::string& path, const std::string& folder) {
+  std::error_code unknown;
+  const fs::path inner = fs::weakly_canonical(path, unknown), outer = fs::weakly_canonical(folder, unknown);
+  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
+
 /// A picture compared with itself passes whatever it holds, so who asks for that has mistyped a name.
 void check_names(const CompareOptions& options) {
   std::error_code unknown;
@@ -129,6 +135,11 @@ int compare_two_folders(CompareOptions options) {
   for (const std::string& gallery : galleries) check_file_output(gallery);
   for (const std::string& folder : options.outputs) {
     std::error_code unknown;
+    if (has_ending(folder, ".htm")) throw usage("-o", "'" + folder + "' is named like a page", "end its name in .html");
+    for (const std::string& compared : {options.reference, options.test})
+      if (lies_within(folder, compared))
+        throw usage("-o", "'" + folder + "' lies in " + compared + ", whose pictures are compared: maps would be some",
+                    "name a folder outside");
     if (is_picture_name(folder))
       throw usage("-o", "'" + folder + "' is named like a file, and of folders maps are written into a folder",
                   "name a folder, or a page that ends in .html");

@@ -46,6 +46,21 @@ void turn_rows(PictureFile& picture) {
   }
 }
 
+/// Error(usage) for a bound that no difference of codes is beyond, which somebody gave as a number of codes.
+void check_bounds(const ComparedPictures& pictures, std::span<const compare::Criterion> criteria) {
+  for (const PictureFile* picture : {&pictures.reference, &pictures.test})
+    for (const ChannelFile& part : picture->parts)
+      if (!std::all_of(part.channels.begin(), part.channels.end(), [](const Channel& c) { return c.is_code(); }))
+        return;
+  for (const compare::Criterion& row : criteria) {
+    const bool is_largest = row.measure == compare::Measure::largest_difference;
+    if ((is_largest ? row.bound : row.delta) < 1.0) continue;
+    throw Error(ErrorKind::usage, is_largest ? "--max-difference" : "--delta",
+                "the pictures hold codes, which stand for 0 to 1, so it lets every difference pass",
+                "give a fraction, like 2/255");
+  }
+}
+
 }  // namespace
 
 std::optional<PictureFile> mask_file(const CompareOptions& options) {
@@ -71,6 +86,7 @@ ComparedPictures compared_pictures(const std::string& reference, const std::stri
   if (options.rules.wants_flip ||
       std::any_of(criteria.begin(), criteria.end(), [](const auto& row) { return compare::is_flip(row.measure); }))
     require_memory(flip_memory(uint64_t(part.width) * uint64_t(part.height)), reference, "FLIP");
+  check_bounds(pictures, rules.criteria);
   pictures.comparison = compare::compared(pictures.reference, pictures.test, rules);
   for (const PictureFile* picture : {&pictures.reference, &pictures.test})
     if (is_lenient(picture->metadata))

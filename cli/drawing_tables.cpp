@@ -43,7 +43,9 @@ void add_camera(CommandTable& table, CameraTexts& texts) {
             "Which of the scene's cameras sees it, by number from 0 or by name; trueshade info lists them")
       .group = kCameraGroup;
   add_value(table, "--orbit", "AZ,EL[,DISTANCE]", texts.orbit,
-            "See all of the scene from a side: AZ degrees to the right of its front, EL degrees above it. DISTANCE is "
+            "See all of the scene from a side: AZ degrees from +z towards +x (0 is the front, 90 the right, as you see "
+            "it, 180 "
+            "the back), EL degrees above. DISTANCE is "
             "in scene "
             "units from the centre, or like 150% of the one from which all is seen, which it is unless given")
       .group = kCameraGroup;

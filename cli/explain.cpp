@@ -140,6 +140,14 @@ Looks looks_of_picture(const std::string& path) {
   return {};
 }
 
+/// What is asked for, and else what is there.
+Looks over(Looks asked, const Looks& there) {
+  for (const auto field :
+       {&Looks::samples, &Looks::background, &Looks::faces, &Looks::lights, &Looks::exposure, &Looks::tone_map})
+    if (!(asked.*field)) asked.*field = there.*field;
+  return asked;
+}
+
 /// What OpenGL allows the pixel to hold, and the class of what it holds, which comes back.
 oracle::PixelClass add_legal(const Question& q, const Image& given, double difference, Account& out) {
   oracle::Capture capture;
@@ -210,7 +218,7 @@ void explain(const ExplainOptions& options) {
   const bool other_view = pipeline.view != ImageView::lit;
   pipeline.view = ImageView::lit;
   PipelineOptions looked_at = options;  // a picture of ours says how it looks, another has the file's own
-  if (options.against && looks_text(options.looks).empty()) looked_at.looks = looks_of_picture(*options.against);
+  if (options.against) looked_at.looks = over(options.looks, looks_of_picture(*options.against));
   bring_to_looks(looked_at, pipeline, options.against ? ChosenLooks::never : ChosenLooks::by_scene, scene);
   show(scene, options.camera, pipeline, options.time);
   if (options.x >= pipeline.width || options.y >= pipeline.height)

@@ -334,6 +334,9 @@ void choose_background(const Pipeline& pipeline, ChosenLooks chosen, Scene& scen
   if (looks.background) remove_ground(scene);
   const Background asked =
       looks.background ? background_of(*looks.background) : Background{glm::dvec4(kModelBackground, 1.0), true};
+  if (looks.background && !asked.is_shown && std::max({asked.color.r, asked.color.g, asked.color.b}) > 1.0)
+    scene.notes.push_back("--background " + *looks.background +
+                          " is light, of which 1 is white; #rrggbb is what a screen shows");
   scene.clear = asked.is_shown ? clear_of_codes(asked.color, pipeline, looks) : glm::vec4(asked.color);
   looks.background = text_of(scene.clear);
 }
@@ -357,8 +360,10 @@ void choose_faces(const Pipeline& pipeline, ChosenLooks chosen, const CachedScen
 
 void add_looks(CommandTable& table, Looks& looks) {
   const std::string group = std::exchange(table.open_group, "Looks (docs/looks.md)");
-  add_value(table, "--samples", "COUNT", looks.samples,
-            "Samples a pixel, for smooth edges: 1, 4, 9, 16, 25, 36, 49 or 64");
+  add_value(
+      table, "--samples", "COUNT", looks.samples,
+      "Samples a pixel, for smooth edges: 1, 4, 9, 16, 25, 36, 49 or 64. Without it 4 of a model that is drawn into "
+      "PNGs alone, and else 1");
   add_value(table, "--background", "COLOUR", looks.background,
             "What is seen where nothing is drawn: #rrggbb, black, grey or white as a screen shows them; R,G,B[,A] in "
             "linear light; or none, which is transparent");

@@ -153,10 +153,12 @@ void set_light_program(const PipelineOptions& options, LightProgram& program) {
 Pipeline layered_pipeline(const PipelineOptions& options, const Scene& scene) {
   Pipeline pipeline = options.preset ? *preset_pipeline(*options.preset) : default_pipeline(scene);
   if (options.light_shader) end_at_range(pipeline.light_volumes);
-  if (!scene.pipeline_text.empty())
-    pipeline = pipeline_from_json(scene.pipeline_text, options.scene + ": /pipeline", pipeline);
-  if (options.pipeline_file)
-    pipeline = pipeline_from_json(text_of(*options.pipeline_file), *options.pipeline_file, pipeline);
+  const auto add = [&](const std::string& text, const std::string& where) {
+    pipeline = pipeline_from_json(text, where, pipeline);
+    if (options.light_shader) end_at_range(text, pipeline.light_volumes);
+  };
+  if (!scene.pipeline_text.empty()) add(scene.pipeline_text, options.scene + ": /pipeline");
+  if (options.pipeline_file) add(text_of(*options.pipeline_file), *options.pipeline_file);
   if (options.size) std::tie(pipeline.width, pipeline.height) = std::pair(options.size->width, options.size->height);
   if (options.target) pipeline.target = *options.target;
   if (options.profile) pipeline.profile = *options.profile;

@@ -75,6 +75,11 @@ SceneToRender::SceneToRender(const RenderOptions& given, const Execution& execut
       scene(cached.scene),
       options(for_eyes(given, scene)),
       pipeline(pipeline_of(options, scene)) {
+  const auto is_picture = [](const std::string& path) { return has_ending(path, ".png") || has_ending(path, ".html"); };
+  const bool is_whole = !options.cube_map && options.execution.region.whole();
+  if (is_whole && !options.looks.samples && with_smooth_edges(given, scene).looks.samples &&
+      std::any_of(given.outputs.begin(), given.outputs.end(), is_picture))
+    scene.notes.push_back("There is one sample a pixel, because values are written too; --samples 4 averages both");
   check_cube_map(options, pipeline);
   validate_region(pipeline, options.execution.region);
   if (options.resume && (!is_streamed(options, pipeline) || options.outputs.empty() || options.numbered()))

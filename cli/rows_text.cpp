@@ -48,7 +48,8 @@ std::string verdict_of_rows(const FolderComparison& folders) {
   const auto accepted =
       std::count_if(folders.rows.begin(), folders.rows.end(), [](const PictureRow& r) { return r.is_accepted; });
   return (failures == 0 ? "all " + all + " pictures pass"
-                        : std::to_string(failures) + " of " + all + " pictures do not pass") +
+                        : std::to_string(failures) + " of " + all +
+                              (failures == 1 ? " pictures does not pass" : " pictures do not pass")) +
          (accepted > 0 ? ", " + std::to_string(accepted) + " accepted" : "");
 }
 

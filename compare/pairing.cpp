@@ -73,7 +73,9 @@ class PartPairing {
 
  private:
   void say(const std::string& channels, const std::string& of, const char* who) {
-    if (!channels.empty()) out_.mismatches.push_back(who + channels + of);
+    if (channels.empty()) return;
+    const bool is_alpha = channels.starts_with("alpha");
+    out_.mismatches.push_back(who + channels + of + (is_alpha ? " (--channels RGB compares the others)" : ""));
   }
   std::string shown(const Channel& channel) const { return name_.empty() ? channel.name : name_ + '.' + channel.name; }
 

@@ -34,6 +34,8 @@ size_t slips_between(std::string_view a, std::string_view b) {
 std::string likeliest_name(std::string_view name, std::span<const std::string_view> known) {
   if (name.size() > kLongestName) return {};
   std::string_view likeliest;
+  const auto begins = [name](std::string_view other) { return name.size() >= 5 && other.starts_with(name); };
+  if (std::count_if(known.begin(), known.end(), begins) == 1) return std::string(*std::ranges::find_if(known, begins));
   size_t least = std::min(std::max<size_t>(2, name.size() / 3) + 1, (name.size() + 1) / 2);
   for (const std::string_view other : known)
     if (other.size() <= kLongestName)

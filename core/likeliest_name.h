@@ -6,7 +6,7 @@
 
 namespace trueshade {
 
-/// The known name that takes the fewest slips to turn into `name`, if these are few enough for its length; otherwise
+/// The only known name that begins so, of five letters or more; or the one that takes the fewest slips to turn into `name`, if these are few enough for its length; otherwise
 /// empty. A slip is a letter too many, too few, or another, or two neighbours in the wrong order; capitals count as
 /// small letters.
 std::string likeliest_name(std::string_view name, std::span<const std::string_view> known);

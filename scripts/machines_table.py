@@ -75,6 +75,8 @@ def page(folder):
 
 
 def main():
+    if len(sys.argv) < 2 or sys.argv[1].startswith("-"):
+        sys.exit(__doc__)
     folder = pathlib.Path(sys.argv[1])
     target = folder / "machines.md"
     text = page(folder)

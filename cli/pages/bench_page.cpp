@@ -99,7 +99,7 @@ std::string times(const SceneTime& s, const BenchResult& bench) {
   const double floor = s.floor.ms(bench.machine.clock_ghz, bench.threads);
   std::string html =
       row("median", formatted(s.timing.median(), "%.3f ms"), "Half of the frames took longer.") +
-      row("least", formatted(s.timing.least(), "%.3f ms"), "The fastest frame: what the machine can do undisturbed.") +
+      row("least", formatted(s.timing.least(), "%.3f ms"), "The fastest frame, which others disturbed least.") +
       row("spread of the middle half", formatted(100 * s.timing.spread(), "%.1f %%"),
           "How far the middle half of the frames lies apart, of the median; large where the machine was busy.");
   html += row("visibility, core time", formatted(core.visibility, "%.3f ms"),

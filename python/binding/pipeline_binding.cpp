@@ -98,9 +98,14 @@ Pipeline PythonPipeline::over(const Scene& scene) const {
   if (whole) return *whole;
   Pipeline p = preset ? *preset_pipeline(*preset) : default_pipeline(scene);
   if (light_program.used()) end_at_range(p.light_volumes);
-  if (!scene.pipeline_text.empty()) p = pipeline_from_json(scene.pipeline_text, scene.spec + ": /pipeline", p);
-  if (!values.empty()) p = pipeline_from_json(values, "values", p);
-  if (!named.empty()) p = pipeline_from_json(named, "pipeline", p);
+  const auto add = [&](const std::string& text, const std::string& where) {
+    if (text.empty()) return;
+    p = pipeline_from_json(text, where, p);
+    if (light_program.used()) end_at_range(text, p.light_volumes);
+  };
+  add(scene.pipeline_text, scene.spec + ": /pipeline");
+  add(values, "values");
+  add(named, "pipeline");
   if (size) p.width = (*size)[0], p.height = (*size)[1];
   if (light_program.used()) p.light_program = light_program;
   give_text(p.light_program);

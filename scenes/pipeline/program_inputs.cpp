@@ -96,6 +96,17 @@ void end_at_range(LightVolumes& volumes) {
     if (*extent == LightExtent::unbounded) *extent = LightExtent::range;
 }
 
+void end_at_range(std::string_view json, LightVolumes& volumes) {
+  const json::Value value = json::parse(json, "");
+  const json::Node root(value, "");
+  if (!root.find("preset")) return;
+  LightVolumes unsaid = volumes;
+  end_at_range(unsaid);
+  const auto said = root.find("light_volumes");
+  if (!said || !said->find("point")) volumes.point = unsaid.point;
+  if (!said || !said->find("spot")) volumes.spot = unsaid.spot;
+}
+
 namespace {
 
 /// Whether the input is a field that captures alone have.

@@ -17,6 +17,8 @@ inline constexpr std::string_view kParameterBlock = "parameters.";
 
 /// What a light program's lights are bounded by where nothing else is said: geometry of lights stays.
 void end_at_range(LightVolumes& volumes);
+/// The same of what a pipeline's JSON leaves unsaid that names a preset: the preset stands in the place of what was there.
+void end_at_range(std::string_view json, LightVolumes& volumes);
 
 /// Fields of a surface that captures alone have: planes that --map names.
 struct CapturedFields {

@@ -345,7 +345,8 @@ TEST_CASE("Two results of bench are compared: rows that were made slower or fast
   REQUIRE(bench.exit_code == 0);
   const auto written = nlohmann::json::parse(contents(folder.path("run.json")));
   // Frames of 10 ms and a little more, times a factor a row.
-  const auto planted = [&](const char* name, double shift, std::vector<double> factors) {
+  const auto planted = [&](const char* name, double shift, std::vector<double> factors,
+                           const std::vector<std::string>& reasons = {}) {
     auto json = written;
     auto& scene = json["scenes"][0];
     const auto set = [&](nlohmann::json& row, double factor) {
@@ -354,6 +355,7 @@ TEST_CASE("Two results of bench are compared: rows that were made slower or fast
     };
     set(scene, factors[0]);
     for (size_t i = 0; i < 3; ++i) set(scene["peers"][i], factors[i + 1]);
+    json["not_to_be_quoted"] = reasons;
     std::ofstream(folder.path(name)) << json;
   };
   planted("a.json", 0.0, {1, 1, 1, 1});
@@ -374,6 +376,14 @@ TEST_CASE("Two results of bench are compared: rows that were made slower or fast
     CHECK(rows[i]["high"].get<double>() > ratios[i]);
     CHECK(rows[i]["same_picture"] == true);
   }
+  planted("noisy.json", 0.05, {1, 1.2, 0.8, 1.02}, {"it was busy"});
+  REQUIRE(run_command({"bench", "a.json", "noisy.json", "--json", "c.json"}, folder.path("")).exit_code == 0);
+  const auto noisy = nlohmann::json::parse(contents(folder.path("c.json")))["rows"];
+  CHECK(noisy[0]["verdict"] == "no difference beyond noise");
+  for (const size_t i : {1u, 2u}) CHECK(noisy[i]["verdict"] == "not to be quoted");
+  const Outcome lost = run_command({"bench", "a.json", "lost.json"}, folder.path(""));
+  CHECK(lost.exit_code == 5);
+  CHECK(lost.err.find("lost.json: No such file or directory") != std::string::npos);
   const Outcome same = run_command({"bench", "a.json", "a.json"}, folder.path(""));
   CHECK(same.out.find("\n0 of 4 rows differ beyond noise") != std::string::npos);
   for (const bool busy : {false, true}) {
@@ -383,7 +393,7 @@ TEST_CASE("Two results of bench are compared: rows that were made slower or fast
     std::ofstream(folder.path("busy.json")) << run;
     const Outcome said = run_command({"bench", "busy.json", "busy.json"}, folder.path(""));
     CHECK((said.out.find("   not to be quoted: it was busy\n") != std::string::npos) == busy);
-    CHECK((said.out.find("\nwhat else the machines did may be the cause") != std::string::npos) == busy);
+    CHECK((said.out.find("what else the machines did may be the cause") != std::string::npos) == busy);
   }
 
   auto few = written, other = written;

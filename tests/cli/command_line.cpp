@@ -148,6 +148,7 @@ TEST_CASE("Options are read as other programs read them") {
     check_refused(run_command(arguments), 2, about);
   };
   refused({"render", "builtin:cornell", "--hash", "--size"}, "--size: its value is missing (add it: --size WxH)");
+  refused({"render", "builtin:cornell", "--background", "-o", "x.png"}, "--background: its value is missing");
   refused({"render", "builtin:cornell", "--hash=yes"}, "--hash: it takes no value");
   refused({"render", "builtin:cornell", "-q=yes"}, "-q: it takes no value");
   refused({"render", "builtin:cornell", "--size", "1x1", "--size", "2x2"}, "--size: it is given twice");

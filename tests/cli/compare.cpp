@@ -209,7 +209,8 @@ TEST_CASE("where the reference carries its scene, pictures are judged by it, and
   const Outcome plain = run_compare(folder, {"ref.png", "test.png", "--no-judge"});
   CHECK(plain.exit_code == 1);
   CHECK(plain.out.find("judged") == std::string::npos);
-  CHECK(run_compare(folder, {"ref.png", "test.png", "--max-difference", "1"}).exit_code == 0);  // a criterion: no judge
+  CHECK(run_compare(folder, {"ref.png", "test.png", "--max-difference", "254/255"}).exit_code ==
+        0);  // a criterion: no judge
 
   folder.write("scene.json", dim);  // the reference's scene is another one now
   const Outcome changed = run_compare(folder, {"ref.png", "test.png"});
@@ -577,6 +578,35 @@ TEST_CASE("of folders -o takes maps of the pictures that do not pass") {
   CHECK(run_compare(folder, {"ref", "test", "-o", "maps"}).exit_code == 1);
   CHECK(std::filesystem::exists(folder.path("maps/b/differs.exr.flip.png")));
   CHECK_FALSE(std::filesystem::exists(folder.path("maps/a/same.exr.flip.png")));
+  for (const char* within : {"test/maps", "ref/a/maps", "./test/../test/maps"}) {
+    const Outcome refused = run_compare(folder, {"ref", "test", "-o", within});
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.err.find("whose pictures are compared: maps would be some") != std::string::npos);
+  }
+  CHECK(run_compare(folder, {"ref", "test", "-o", "report.htm"}).err.find("end its name in .html") !=
+        std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(folder.path("report.htm")));
+}
+
+TEST_CASE("a bound that no difference of codes is beyond is refused, and of floats it is one") {
+  ScratchFolder folder;
+  for (const char* preset : {"many-lights", "redsdk"})
+    REQUIRE(run_command({"render", "builtin:cornell", "--size", "32x24", "--preset", preset, "-q", "-o",
+                         std::string(preset) + ".png"},
+                        folder.path(""))
+                .exit_code == 0);
+  for (const std::vector<std::string>& bound : {std::vector<std::string>{"--max-difference", "1"},
+                                                {"--max-difference", "2"},
+                                                {"--pixels", "0", "--delta", "2"}}) {
+    std::vector<std::string> words{"many-lights.png", "redsdk.png"};
+    words.insert(words.end(), bound.begin(), bound.end());
+    const Outcome refused = run_compare(folder, words);
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.err.find("so it lets every difference pass (give a fraction, like 2/255)") != std::string::npos);
+  }
+  with_pair(folder, [](EnginePlane& plane) { plane.values[0] += 1.5f; });
+  CHECK(run_compare(folder, {"ref.exr", "test.exr", "--max-difference", "2"}).exit_code == 0);
+  CHECK(run_compare(folder, {"ref.exr", "test.exr", "--max-difference", "1"}).exit_code == 1);
 }
 
 }  // namespace trueshade

@@ -118,6 +118,27 @@ TEST_CASE("A pipeline that names a light program is drawn by that text alone") {
   CHECK(has(other.err, "SHA-256"));
 }
 
+TEST_CASE(
+    "A light ends at its range under a program, wherever its preset is named, unless light_volumes says otherwise") {
+  write("endless.glsl", "vec3 light(Surface s, Light l, View v) { return vec3(0.25); }\n");
+  const auto hash = [&](const std::string& pipeline, std::vector<std::string> more = {}) {
+    write("near.json",
+          R"({"version": 1, "camera": {"eye": [0, 1, 4], "target": [0, 0, 0]}, "objects": [{"mesh": "sphere"}],
+      "lights": [{"type": "point", "position": [0, 2, 2], "range": 2.2}])" +
+              pipeline + "}");
+    more.insert(more.begin(), {"render", "near.json", "--size", "32x24", "--hash", "--light-shader", "endless.glsl"});
+    return run(more).out;
+  };
+  const std::string ended = hash("");
+  CHECK_FALSE(ended.empty());
+  CHECK(hash(R"(, "pipeline": {"preset": "many-lights"})") == ended);
+  CHECK(hash("", {"--preset", "many-lights"}) == ended);
+  const std::string stated = R"({"preset": "many-lights", "light_volumes": {"point": "unbounded"}})";
+  CHECK(hash(", \"pipeline\": " + stated) != ended);
+  write("stated.json", stated);
+  CHECK(hash("", {"--pipeline", "stated.json"}) == hash(", \"pipeline\": " + stated));
+}
+
 TEST_CASE("A light model that ships is drawn by its name, and the picture says which text that was") {
   const std::vector<std::string> frame{"render", "builtin:cornell", "--size", "32x24"};
   const auto with = [&](std::vector<std::string> more) {

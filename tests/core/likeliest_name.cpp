@@ -21,6 +21,14 @@ TEST_CASE("A slip of one letter, or two that changed places, is known again") {
   CHECK(meant("dephts") == "depth");
 }
 
+TEST_CASE("A name that is cut off is known again where it is five letters or more and begins one name alone") {
+  const std::array<std::string_view, 3> options{"--max-difference", "--max-file", "--max-memory"};
+  CHECK(likeliest_name("--max-diff", options) == "--max-difference");
+  CHECK(likeliest_name("--max-", options).empty());
+  CHECK(likeliest_name("man", kNames).empty());
+  CHECK(likeliest_name("many-", kNames) == "many-lights");
+}
+
 TEST_CASE("What is near no name is not taken for one") {
   const auto meant = [](std::string_view name) { return likeliest_name(name, kNames); };
   for (const std::string_view far : {"", "x", "-", "--view", "sphere", "paint"}) {

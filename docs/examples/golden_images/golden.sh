@@ -8,4 +8,5 @@ for scene in builtin:cornell scene.json; do
   name=${scene#builtin:}
   draw "$scene" "out/drawn/${name%.json}.png"
 done
-exec trueshade compare golden out/drawn --pixels 10 --delta 2/255 --junit out/junit.xml -o out/maps "$@"
+exec trueshade compare golden out/drawn --pixels 10 --delta 2/255 \
+  --junit out/junit.xml -o out/maps -o out/report.html "$@"
