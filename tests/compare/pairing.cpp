@@ -37,9 +37,9 @@ TEST_CASE("channels are paired by name, in the reference's order, whatever the t
 
 TEST_CASE("a channel that one picture lacks is a mismatch, and a missing alpha is named as that") {
   CHECK(paired(with_channels({"R", "G", "B", "A"}), with_channels({"R", "G", "B"})).mismatches ==
-        std::vector<std::string>{"the test has no alpha (channel A)"});
+        std::vector<std::string>{"the test has no alpha (channel A) (--channels RGB compares the others)"});
   CHECK(paired(with_channels({"R", "G", "B"}), with_channels({"R", "G", "B", "A"})).mismatches ==
-        std::vector<std::string>{"the reference has no alpha (channel A)"});
+        std::vector<std::string>{"the reference has no alpha (channel A) (--channels RGB compares the others)"});
   CHECK(paired(with_channels({"R", "N.X", "N.Y"}), with_channels({"R", "Z"})).mismatches ==
         std::vector<std::string>{"the test has no channels N.X, N.Y", "the reference has no channel Z"});
 }
@@ -57,8 +57,7 @@ TEST_CASE("sizes that differ are a mismatch even where the pixels are as many, a
 
 TEST_CASE("data windows at two places of their frames are a mismatch") {
   PictureFile reference = with_channels({"R"}), test = with_channels({"R"});
-  for (PictureFile* picture : {&reference, &test})
-    picture->parts[0].frame_width = picture->parts[0].frame_height = 8;
+  for (PictureFile* picture : {&reference, &test}) picture->parts[0].frame_width = picture->parts[0].frame_height = 8;
   CHECK(paired(reference, test).mismatches.empty());
   test.parts[0].left = 1;
   CHECK(paired(reference, test).mismatches ==

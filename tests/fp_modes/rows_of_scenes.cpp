@@ -1,6 +1,5 @@
 // scenes/: what is read, moved, checked and hashed.
 #include "core/error.h"
-#include "scenes/both_faces.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/pipeline/pipeline.h"
 #include "tests/fp_modes/rows.h"
@@ -237,14 +236,7 @@ void call_mesh(Bytes& out) {
     for (const auto& stream : mesh.uv_set(set)) out.put(stream);
 }
 
-void call_both_faces(Bytes& out) {
-  Scene scene = scene_of_all();
-  light_both_faces(scene);
-  for (const Material& material : scene.materials) out.put(material.double_sided);
-}
-
 constexpr Row kRows[] = {
-    {"scenes/both_faces.h", "light_both_faces", call_both_faces},
     {"scenes/builtin/builtin.h", "builtin_scene builtin_scenes", call_builtin},
     {"scenes/camera.h", "clip_from_world clip_from_view view_from_world product view_axis", call_camera},
     {"scenes/mesh.h", "vertex_count triangle_count has_uv has_color has_tangents uv_set", call_mesh},
