@@ -79,7 +79,9 @@ SceneToRender::SceneToRender(const RenderOptions& given, const Execution& execut
   const bool is_whole = !options.cube_map && options.execution.region.whole();
   if (is_whole && !options.looks.samples && with_smooth_edges(given, scene).looks.samples &&
       std::any_of(given.outputs.begin(), given.outputs.end(), is_picture))
-    scene.notes.push_back("There is one sample a pixel, because values are written too; --samples 4 averages both");
+    scene.notes.push_back(
+        "There is one sample a pixel, because an EXR file or planes are written too (--samples 4 "
+        "averages them as well)");
   check_cube_map(options, pipeline);
   validate_region(pipeline, options.execution.region);
   if (options.resume && (!is_streamed(options, pipeline) || options.outputs.empty() || options.numbered()))

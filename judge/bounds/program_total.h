@@ -9,7 +9,8 @@
 
 namespace trueshade::oracle {
 
-/// The sum of what lights add, and the bound of docs/gl_rules.md section 6 on the roundings of its additions.
+/// Adds up what lights give to one surface, and by how much the roundings of these additions may move the sum: the
+/// bound of docs/gl_rules.md section 6.
 struct ProgramTotal {
   LitRange lit;
   std::array<double, 3> magnitude{};
