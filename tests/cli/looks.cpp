@@ -1,7 +1,11 @@
 // --samples, --background, --lights, --exposure and --tone-map, as users meet them, and what a model file gets by
 // itself.
+#include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "core/image_files/image_io.h"
 #include "tests/catch.hpp"
@@ -231,6 +235,41 @@ TEST_CASE("OBJ files are lit on both faces, unless --faces keeps them as they ar
       has(pictures.render("otherwise.obj", {"--faces", "both", "--hash"}).err, "do not tell which face is the front"));
   CHECK(pictures.hash("sheet.obj", seen(behind, {"--cache", "kept"})) == pictures.hash("sheet.obj", seen(behind)));
   CHECK(pictures.hash("sheet.obj", seen(behind, {"--cache", "kept"})) == pictures.hash("sheet.obj", seen(behind)));
+}
+
+TEST_CASE("Whether both faces are lit is known of a damaged cache file without a look at its geometry") {
+  const ScratchFolder folder;
+  constexpr int kSide = 150;
+  std::string text;
+  for (int i = 0; i < kSide * kSide; ++i)
+    text += "v " + std::to_string(i % kSide) + ' ' + std::to_string(i / kSide) + " 0." + std::to_string(i % 7) + '\n';
+  for (int i = 1; i < kSide * (kSide - 1); ++i)
+    if (i % kSide != 0)
+      text += "f " + std::to_string(i) + ' ' + std::to_string(i + 1) + ' ' + std::to_string(i + kSide) + '\n';
+  folder.write("grid.obj", text);
+  std::filesystem::last_write_time(folder.path("grid.obj"),
+                                   std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  const auto render = [&](const char* faces) {
+    return run_command({"render", "grid.obj", "--faces", faces, "--size", "32x24", "--hash", "--cache", "kept", "--eye",
+                        "75,75,200", "--look-at", "75,75,0"},
+                       folder.path(""));
+  };
+  REQUIRE(render("both").exit_code == 0);
+  REQUIRE_FALSE(std::filesystem::is_empty(folder.path("kept")));
+  const std::string file = std::filesystem::directory_iterator(folder.path("kept"))->path().string();
+  const uint64_t size = std::filesystem::file_size(file);
+  for (int part = 0; part < 12; ++part) {
+    std::filesystem::copy_file(file, folder.path("whole"), std::filesystem::copy_options::overwrite_existing);
+    std::fstream(file, std::ios::binary | std::ios::in | std::ios::out)
+        .seekp(int64_t(size * uint64_t(part) / 12))
+        .write(std::string(size / 24, '\xff').data(), int64_t(size / 24));
+    const Outcome both = render("both"), keep = render("keep");  // a default camera may meet the damage in either
+    INFO(part << ' ' << both.err);
+    CHECK(both.exit_code == keep.exit_code);
+    CHECK((both.exit_code >= 0 && both.exit_code <= 5));
+    std::filesystem::copy_file(folder.path("whole"), file, std::filesystem::copy_options::overwrite_existing);
+  }
 }
 
 TEST_CASE("A picture that explain is given is explained as it says that it looks, or as the file is") {
