@@ -238,7 +238,7 @@ bool compared_results(const BenchOptions& options) {
       other = file;
   }
   if (results.empty()) return false;
-  if (!other.empty() && !std::filesystem::exists(other))
+  if (!other.empty() && !other.starts_with("builtin:") && !std::filesystem::exists(other))
     throw Error(ErrorKind::io, other, "No such file or directory",
                 "name a file that `trueshade bench --json FILE` wrote");
   if (!other.empty())
