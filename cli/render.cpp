@@ -32,7 +32,7 @@ void render_frames(const RenderOptions& options, Pictures& pictures, PictureSink
 /// What is needed besides one frame, in bytes.
 uint64_t memory_besides_frame(const RenderOptions& options, const Pipeline& pipeline) {
   constexpr uint64_t kFacesOfCross = 12;
-  const bool cross = options.cube_map && options.cube_map->cross;
+  const bool cross = options.cube_cross;
   const uint64_t of_files = file_memory(pipeline, options.execution.region, options.outputs, options.aovs);
   return cross ? kFacesOfCross * (of_files + picture_memory(pipeline, {}, options.aovs)) : of_files;
 }
@@ -87,6 +87,8 @@ SceneToRender::SceneToRender(const RenderOptions& given, const Execution& execut
   if (options.resume && (!is_streamed(options, pipeline) || options.outputs.empty() || options.numbered()))
     throw Error(ErrorKind::usage, "--resume", "one large picture that goes into files can be gone on with",
                 "leave it out: a picture over 16384 pixels a side, or of more than 67108864, is large");
+  const bool camera_is_framed = scene.camera_of_ours || options.camera.any() || options.turntable;
+  if (camera_is_framed && cached.clusters && cached.clusters->source) cached.clusters->source->check_positions(scene);
   RenderOptions seen = options;
   if (options.turntable)
     seen.camera = turntable(scene, options.camera, *options.turntable, aspect_of(pipeline)).front();

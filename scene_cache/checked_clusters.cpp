@@ -19,6 +19,11 @@ void CheckedClusters::check(const Scene& scene, const Instance& instance, const 
     if (map->used()) check_texture(scene.textures[size_t(map->texture)], size_t(map->texture));
 }
 
+void CheckedClusters::check_positions(const Scene& scene) const {
+  for (const Mesh& mesh : scene.meshes)
+    for (const FloatStream& stream : mesh.position) check_part(stream, 0, stream.size());
+}
+
 void CheckedClusters::check_texture(const Texture& texture, size_t index) const {
   if (texture_is_checked_[index].load(std::memory_order_acquire)) return;
   for (const TextureLevel& level : texture.levels) check_part(level.bytes, 0, level.bytes.size());

@@ -15,13 +15,6 @@
 namespace trueshade {
 namespace {
 
-using Arguments = std::vector<std::string>;
-
-Arguments with(Arguments arguments, const Arguments& more) {
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
-}
-
 std::string output_of(const Arguments& arguments, const ScratchFolder& folder) {
   const Outcome outcome = run_command(arguments, folder.path(""));
   CAPTURE(outcome.err);
