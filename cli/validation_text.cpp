@@ -283,6 +283,12 @@ namespace {
 
 bool is_explained(const Validation& v) { return !v.findings.empty() && !v.findings[0].partial; }
 
+/// Whether the quotient's law leaves next to nothing, so that it says what the light is.
+bool is_told_by_quotient(const Validation& v) {
+  constexpr double kNextToNothing = 0.02;
+  return v.quotient && v.quotient->left < kNextToNothing;
+}
+
 /// Where no fault explains the light: the quotient's description in words, and eight steps of its curve.
 std::string quotient_text(const oracle::LightQuotient& q) {
   std::string lines =
@@ -330,7 +336,8 @@ std::string validation_text(const Validation& v) {
   add_row("evidence", v.verdict.evidence_line());
   if (v.verdict.inferred) lines += verdict_row("tightest", tightest_line(*v.verdict.inferred));
   lines += verdict_row("verdict", conclusion(v));
-  if (v.is_diagnosed && !is_explained(v)) lines += verdict_row("looks like", "no fault that is known");
+  if (v.is_diagnosed && !is_explained(v) && !is_told_by_quotient(v))
+    lines += verdict_row("looks like", "no fault that is known");
   if (v.quotient) lines += quotient_text(*v.quotient);
   for (const oracle::Finding& f : v.findings)
     lines += verdict_row(f.together  ? "and"

@@ -63,6 +63,32 @@ std::vector<double> solved(std::vector<double> a, std::vector<double> b) {
   return b;
 }
 
+/// As solved(), of changes above -1: no light's term turns round. What would be below is held there, and the others are
+/// solved for anew.
+std::vector<double> solved_above_no_light(const std::vector<double>& a, const std::vector<double>& b) {
+  constexpr double kNoLight = -1;
+  const size_t n = b.size();
+  std::vector<uint8_t> held(n);
+  for (;;) {
+    std::vector<double> left = a, right = b;
+    for (size_t i = 0; i < n; ++i)
+      for (size_t j = 0; j < n; ++j) {
+        if (held[j] != 0 && held[i] == 0) right[i] -= a[i * n + j] * kNoLight;
+        if (held[i] != 0 || held[j] != 0) left[i * n + j] = i == j ? a[i * n + i] : 0;
+      }
+    for (size_t i = 0; i < n; ++i)
+      if (held[i] != 0) right[i] = a[i * n + i] * kNoLight;
+    std::vector<double> x = solved(std::move(left), std::move(right));
+    bool is_new = false;
+    for (size_t i = 0; i < n; ++i)
+      if (held[i] != 0)
+        x[i] = kNoLight;
+      else if (x[i] < kNoLight)
+        held[i] = 1, is_new = true;
+    if (!is_new) return x;
+  }
+}
+
 class QuotientFit {
  public:
   QuotientFit(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
@@ -120,7 +146,7 @@ class QuotientFit {
     return out;
   }
 
-  /// The part by which the terms of each of n kinds are changed, by least squares.
+  /// The part by which the terms of each of n kinds are changed, by least squares; -1 at least.
   template <class Kind>
   std::vector<double> change_by(size_t n, const Kind& kind) const {
     std::vector<double> a(n * n), b(n);
@@ -137,7 +163,7 @@ class QuotientFit {
     }
     for (size_t i = 0; i < n; ++i)
       for (size_t j = 0; j < i; ++j) a[j * n + i] = a[i * n + j];
-    return solved(std::move(a), std::move(b));
+    return solved_above_no_light(a, b);
   }
 
   void describe(LightQuotient& q) const {
