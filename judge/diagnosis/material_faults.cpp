@@ -122,6 +122,29 @@ bool no_normal_maps(Scene& s, Pipeline&, double) {
   for (Material& m : s.materials) any = any || m.normal_map.used(), m.normal_map.texture = -1;
   return any;
 }
+/// Changes the tangents of meshes that a normal map is laid on.
+template <class Change>
+bool change_tangents(Scene& s, const Change& change) {
+  bool any = false;
+  for (const Instance& object : s.instances) {
+    Mesh& mesh = s.meshes[object.mesh];
+    if (s.materials[object.material].normal_map.used() && mesh.has_tangents()) any = change(mesh) || any;
+  }
+  return any;
+}
+bool no_tangents(Scene& s, Pipeline&, double) {
+  return change_tangents(s, [](Mesh& mesh) {
+    mesh.tangent = {};
+    return true;
+  });
+}
+bool no_tangent_signs(Scene& s, Pipeline&, double) {
+  return change_tangents(s, [](Mesh& mesh) {
+    bool any = false;
+    for (float& w : mesh.tangent[3]) any = any || w < 0, w = std::fabs(w);
+    return any;
+  });
+}
 bool scale_normal_maps(Scene& s, Pipeline&, double f) {
   bool any = false;
   for (Material& m : s.materials) any = any || m.normal_map.used(), m.normal_scale *= float(f);
@@ -264,6 +287,10 @@ constexpr PlaneFault kFaults[] = {
     redrawn("normal-map-green", "the normal maps' Y has the wrong sign", turn_channel<1>),
     redrawn("normal-map-srgb", "normal maps are decoded as if they were sRGB", decode_normal_maps),
     redrawn("normal-map-missing", "the normal maps are not read", no_normal_maps),
+    redrawn("tangents-missing", "normal maps are laid along the texture coordinates, not along the model's tangents",
+            no_tangents),
+    redrawn("tangent-sign-missing", "the tangents' w is not read, so that mirrored parts have green turned",
+            no_tangent_signs),
     {.name = "normal-map-scale",
      .text = "the normal maps' X and Y are %s times what they should be",
      .redraw = scale_normal_maps,

@@ -1,6 +1,7 @@
 // Faults of materials: how maps are read, what the alpha test drops, and glass.
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "tests/judge/diagnosis/plants.h"
 
@@ -41,6 +42,22 @@ void bumpy(Scene& s, Pipeline&) {
     return std::array<float, 4>{a, b, 0.9f, 1.0f};
   });
   for (Material& m : s.materials) m.normal_map.texture = map;
+}
+/// With tangents that follow no texture coordinates, mirrored in each second mesh.
+void bumpy_along_tangents(Scene& s, Pipeline& p) {
+  bumpy(s, p);
+  float sign = 1;
+  for (Mesh& mesh : s.meshes) {
+    if (mesh.normal[0].empty()) continue;
+    for (FloatStream& stream : mesh.tangent) stream.resize(mesh.vertex_count());
+    for (size_t i = 0; i < mesh.vertex_count(); ++i) {
+      const glm::vec3 n(mesh.normal[0][i], mesh.normal[1][i], mesh.normal[2][i]);
+      const glm::vec3 t = glm::normalize(glm::cross(n, glm::vec3(0.31f, 0.83f, 0.47f)));
+      for (size_t k = 0; k < 3; ++k) mesh.tangent[k][i] = t[int(k)];
+      mesh.tangent[3][i] = sign;
+    }
+    sign = -sign;
+  }
 }
 void masked(Scene& s, Pipeline&) {
   const int32_t map = add_map(s, [](int x, int y) {
@@ -131,6 +148,24 @@ void add_maps(std::vector<Plant>& all) {
       },
       1)
       .base = bumpy;
+  in(
+      "normal", "tangents not read", {"tangents-missing"},
+      [](Scene& s, Pipeline&, int) {
+        for (Mesh& mesh : s.meshes) mesh.tangent = {};
+        return true;
+      },
+      1)
+      .base = bumpy_along_tangents;
+  in(
+      "normal", "the sign of tangents not read", {"tangent-sign-missing"},
+      [](Scene& s, Pipeline&, int) {
+        bool any = false;
+        for (Mesh& mesh : s.meshes)
+          for (float& w : mesh.tangent[3]) any = any || w < 0, w = 1;
+        return any;
+      },
+      1)
+      .base = bumpy_along_tangents;
   in(
       "G-buffer", "another cutoff of the alpha test", {"alpha-cutoff"},
       [](Scene& s, Pipeline&, int v) {
