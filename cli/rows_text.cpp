@@ -92,7 +92,7 @@ std::string rows_json(const FolderComparison& folders) {
     if (row.pixels > 0)
       json.put("pixels", row.pixels).put("unequal_pixels", row.unequal_pixels).put("largest", row.largest);
     if (row.left_out_pixels > 0) json.put("left_out_pixels", row.left_out_pixels);
-    if (!row.details.empty()) json.put("details", row.details);
+    if (!row.json.empty()) json.put_raw("comparison", row.json);
     if (row.flip_mean) json.put("flip_mean", *row.flip_mean);
     if (row.exit_code != 0) json.put("exit_code", row.exit_code);
     json.put("seconds", row.seconds).put("accepted", row.is_accepted);

@@ -493,6 +493,20 @@ TEST_CASE("folders are compared by relative names: one table, the worst first, m
   const auto json = nlohmann::json::parse(run_compare(folder, {"ref", "test", "--json"}).out);
   CHECK(json.at("failures") == 3);
   CHECK(json.at("pictures").at(0).at("name") == "b/differs.exr");
+
+  // Of a picture that does not pass, all that is said of two pictures.
+  write_folders(folder);
+  const auto rows = nlohmann::json::parse(run_compare(folder, {"ref", "test", "--json"}).out).at("pictures");
+  for (const auto& row : rows) {
+    CAPTURE(row.dump());
+    const bool is_compared = row.at("outcome") == "different";
+    REQUIRE(row.contains("comparison") == is_compared);
+    if (!is_compared) continue;
+    const std::string name = row.at("name");
+    auto alone = nlohmann::json::parse(run_compare(folder, {"ref/" + name, "test/" + name, "--json"}).out);
+    CHECK(row.at("comparison").at("worst") == alone.at("worst"));
+    CHECK(row.at("comparison").at("channels") == alone.at("channels"));
+  }
 }
 
 TEST_CASE(
