@@ -5,7 +5,7 @@
 
 namespace trueshade {
 
-CommandTable batch_table(BatchOptions& options, BatchTexts& texts) {
+CommandTable batch_table(BatchOptions& options) {
   CommandTable table{"batch", "Run many renders, validations and comparisons, and say what became of each"};
   add_value(table, "JOBS", "FILE", options.file, "Jobs, .json (docs/batch.md); their paths are relative to its folder")
       .is_required = true;
@@ -22,26 +22,24 @@ CommandTable batch_table(BatchOptions& options, BatchTexts& texts) {
   add_value(table, "-o,--report", "FILE", options.report, "Report to write, .html");
   add_quiet(table, options, "Print the verdict alone; say neither progress nor which files were written");
   table.open_group = "Execution";
-  add_value(table, "--jobs", "COUNT", texts.jobs,
-            "Jobs at once, of each process that MPI has started; 0 for as many as there are cores for their threads");
-  add_value(table, "--threads", "COUNT", texts.threads,
-            "Threads of a job that does not say its own, 0 for the cores shared evenly; never changes a pixel");
-  add_sharing(table, options.sharing, texts.lost_after);
+  constexpr int kMostJobs = 1024;
+  const auto read_jobs = [](const std::string& text) { return integer_in("--jobs", text, 0, kMostJobs); };
+  add_read(table, "--jobs", "COUNT", options.jobs, read_jobs,
+           "Jobs at once, of each process that MPI has started; 0 for as many as there are cores for their threads");
+  add_threads(table, options.threads,
+              "Threads of a job that does not say its own, 0 for the cores shared evenly; never changes a pixel");
+  add_sharing(table, options.sharing);
   table.details =
       "Every job is a process of its own; one that fails ends no other, but those that are after it are skipped.\n"
       "Exit codes: 0 all jobs passed, 1 some did not; others as for trueshade.";
   table.examples = {{"trueshade batch jobs.json --resume --report jobs.html", "What is not done yet, and a page."}};
   table.see_also = {"render", "validate", "compare"};
-  table.finished = [&options, &texts]() -> Command { return finished(std::move(options), texts); };
+  table.finished = [&options]() -> Command { return finished(std::move(options)); };
   return table;
 }
 
-BatchOptions finished(BatchOptions options, const BatchTexts& texts) {
-  constexpr int kMost = 1024;
+BatchOptions finished(BatchOptions options) {
   if (options.file.empty()) throw usage("JOBS", "'' is no name of a file", "name one");
-  if (texts.jobs) options.jobs = integer_in("--jobs", *texts.jobs, 0, kMost);
-  if (texts.threads) options.threads = integer_in("--threads", *texts.threads, 0, kMost);
-  if (texts.lost_after) options.sharing.lost_after = lost_after_from_text(*texts.lost_after);
   if (options.junit && !has_ending(*options.junit, ".xml"))
     throw usage("--junit", "'" + *options.junit + "' does not end like XML", "end the name in .xml");
   if (options.report && !has_ending(*options.report, ".html"))

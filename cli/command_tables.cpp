@@ -3,19 +3,19 @@
 namespace trueshade {
 
 CommandTables::CommandTables() {
-  tables_.push_back(render_table(render_, render_texts_));
-  tables_.push_back(info_table(info_, info_texts_));
+  tables_.push_back(render_table(render_));
+  tables_.push_back(info_table(info_));
   tables_.push_back(list_table(list_));
-  tables_.push_back(glsl_table(glsl_, glsl_texts_));
-  tables_.push_back(export_table(export_, export_texts_));
-  tables_.push_back(validate_table(validation_, validation_texts_));
+  tables_.push_back(glsl_table(glsl_));
+  tables_.push_back(export_table(export_));
+  tables_.push_back(validate_table(validation_));
   tables_.push_back(probe_table(probe_));
-  tables_.push_back(shade_table(shade_, shade_texts_));
-  tables_.push_back(explain_table(explain_, explain_texts_));
-  tables_.push_back(view_table(view_, view_texts_));
-  tables_.push_back(bench_table(bench_, bench_texts_));
-  tables_.push_back(compare_table(compare_, compare_texts_));
-  tables_.push_back(batch_table(batch_, batch_texts_));
+  tables_.push_back(shade_table(shade_));
+  tables_.push_back(explain_table(explain_));
+  tables_.push_back(view_table(view_));
+  tables_.push_back(bench_table(bench_));
+  tables_.push_back(compare_table(compare_));
+  tables_.push_back(batch_table(batch_));
   CommandTable completion = completion_table(completion_);
   std::vector<std::string> commands = names();
   commands.insert(commands.end(), {"man", completion.name});

@@ -1,23 +1,23 @@
 #pragma once
+#include "cli/option_checks.h"
 #include "cli/option_table.h"
-#include "cli/option_texts.h"
 
 namespace trueshade {
 
 // A table for each command, whose rows fill what is named here, which must outlive it.
-CommandTable render_table(RenderOptions& options, RenderTexts& texts);
-CommandTable info_table(InfoOptions& options, InfoTexts& texts);
+CommandTable render_table(RenderOptions& options);
+CommandTable info_table(InfoOptions& options);
 CommandTable list_table(ListOptions& options);
-CommandTable glsl_table(GlslFilesOptions& options, GlslTexts& texts);
-CommandTable export_table(ExportOptions& options, ExportTexts& texts);
-CommandTable validate_table(ValidationOptions& options, ValidationTexts& texts);
+CommandTable glsl_table(GlslFilesOptions& options);
+CommandTable export_table(ExportOptions& options);
+CommandTable validate_table(ValidationOptions& options);
 CommandTable probe_table(ProbeOptions& options);
-CommandTable shade_table(ShadeOptions& options, ShadeTexts& texts);
-CommandTable explain_table(ExplainOptions& options, ExplainTexts& texts);
-CommandTable view_table(ViewOptions& options, ViewTexts& texts);
-CommandTable bench_table(BenchOptions& options, BenchTexts& texts);
-CommandTable compare_table(CompareOptions& options, CompareTexts& texts);
-CommandTable batch_table(BatchOptions& options, BatchTexts& texts);
+CommandTable shade_table(ShadeOptions& options);
+CommandTable explain_table(ExplainOptions& options);
+CommandTable view_table(ViewOptions& options);
+CommandTable bench_table(BenchOptions& options);
+CommandTable compare_table(CompareOptions& options);
+CommandTable batch_table(BatchOptions& options);
 CommandTable man_table(ManOptions& options, const std::vector<std::string>& commands);  ///< names of all
 CommandTable completion_table(CompletionOptions& options);
 
@@ -34,29 +34,18 @@ class CommandTables {
 
  private:
   RenderOptions render_;
-  RenderTexts render_texts_;
   InfoOptions info_;
-  InfoTexts info_texts_;
   ListOptions list_;
   GlslFilesOptions glsl_;
-  GlslTexts glsl_texts_;
   ExportOptions export_;
-  ExportTexts export_texts_;
   ValidationOptions validation_;
-  ValidationTexts validation_texts_;
   ProbeOptions probe_;
   ShadeOptions shade_;
-  ShadeTexts shade_texts_;
   ExplainOptions explain_;
-  ExplainTexts explain_texts_;
   ViewOptions view_;
-  ViewTexts view_texts_;
   BenchOptions bench_;
-  BenchTexts bench_texts_;
   CompareOptions compare_;
-  CompareTexts compare_texts_;
   BatchOptions batch_;
-  BatchTexts batch_texts_;
   ManOptions man_;
   CompletionOptions completion_;
   std::vector<CommandTable> tables_;
@@ -66,17 +55,19 @@ class CommandTables {
 extern const char* const kSceneHelp;
 inline constexpr const char* kCameraGroup = "Camera and time";
 void add_layers(CommandTable& table, PipelineOptions& options);  ///< --preset and --pipeline; opens `Pipeline`
-void add_size(CommandTable& table, std::optional<std::string>& size);
-void add_time(CommandTable& table, std::optional<std::string>& time);
-void add_camera(CommandTable& table, CameraTexts& texts);  ///< which camera sees, and which animation is played
-void add_target(CommandTable& table, std::optional<std::string>& target);
-void add_strategy(CommandTable& table, std::optional<std::string>& strategy);
-void add_profile(CommandTable& table, std::optional<std::string>& profile);
+void add_size(CommandTable& table, std::optional<Size>& size, int most = kMostDrawnSide);  ///< pixels a side
+void add_time(CommandTable& table, SceneOptions& options);
+void add_camera(CommandTable& table, SceneOptions& options);  ///< which camera sees, and which animation is played
+void add_target(CommandTable& table, PipelineOptions& options);
+void add_strategy(CommandTable& table, PipelineOptions& options);
+void add_profile(CommandTable& table, PipelineOptions& options);
+void add_view(CommandTable& table, PipelineOptions& options);
+void add_threads(CommandTable& table, int& threads, const char* help);
 void add_light_program(CommandTable& table, PipelineOptions& options);  ///< of commands that draw or judge lights
 void add_simd(CommandTable& table, std::string& simd, const std::string& help);
-/// Files of planes, under a heading of their own. `gbuffer`: the name of the option or argument of these files.
 /// How ranks that MPI has started share the work of a command; opens a group.
-void add_sharing(CommandTable& table, SharingRules& sharing, std::optional<std::string>& lost_after);
+void add_sharing(CommandTable& table, SharingRules& sharing);
+/// Files of planes, under a heading of their own. `gbuffer`: the name of the option or argument of these files.
 void add_capture(CommandTable& table, CaptureOptions& options, const char* gbuffer, const char* help);
 
 }  // namespace trueshade

@@ -93,7 +93,7 @@ ComparedPictures compared_pictures(const std::string& reference, const std::stri
       pictures.comparison.notes.push_back(picture->path +
                                           " is no reference: it was drawn with --lenient of a file with faults");
   const compare::Comparison& c = pictures.comparison;
-  if (options.judges && c.outcome == compare::Outcome::different && c.differences.not_finite_pixels == 0)
+  if (options.judges() && c.outcome == compare::Outcome::different && c.differences.not_finite_pixels == 0)
     pictures.judged = judged_by_scene(pictures, options);
   return pictures;
 }

@@ -220,7 +220,7 @@ void explain(const ExplainOptions& options) {
   PipelineOptions looked_at = options;  // a picture of ours says how it looks, another has the file's own
   if (options.against) looked_at.looks = over(options.looks, looks_of_picture(*options.against));
   bring_to_looks(looked_at, pipeline, options.against ? ChosenLooks::never : ChosenLooks::by_scene, scene);
-  show(scene, options.camera, pipeline, options.time);
+  show(scene, options.camera, pipeline, options.seconds());
   if (options.x >= pipeline.width || options.y >= pipeline.height)
     throw Error(ErrorKind::usage, "--pixel",
                 std::to_string(options.x) + ',' + std::to_string(options.y) + " is not in the picture, which is " +

@@ -43,7 +43,7 @@ void write_glsl(const GlslFilesOptions& asked) {
     scene = scene_of_options(asked);
   }
   const Pipeline pipeline = pipeline_of(asked, scene ? *scene : Scene{});
-  if (scene) show(*scene, asked.camera, pipeline, asked.time);
+  if (scene) show(*scene, asked.camera, pipeline, asked.seconds());
   oracle::GlslOptions options = scene ? options_of_scene(*scene) : options_without_scene(asked, pipeline);
   options.version = oracle::version_of(asked.api);
   if (asked.api == oracle::ShaderApi::es31) options.primitive = false;

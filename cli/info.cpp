@@ -67,7 +67,7 @@ void print_scene(const InfoOptions& options) {
   Pipeline pipeline = layered_pipeline(options, scene);
   set_samples(with_smooth_edges(options, scene).looks, pipeline);
   validate(pipeline);
-  const SceneFacts facts = facts_of(scene, pipeline, options.time);
+  const SceneFacts facts = facts_of(scene, pipeline, options.seconds());
   print(options.json ? facts_json(facts, scene) : facts_text(facts, scene));
 }
 
@@ -121,11 +121,11 @@ void resolve(const InfoOptions& options) {
   check_pipeline(options);
   Scene scene = scene_of_options(options);
   const Pipeline pipeline = pipeline_of(options, scene);
-  show(scene, options.camera, pipeline, options.time);
+  show(scene, options.camera, pipeline, options.seconds());
   if (options.folder.empty())
-    print_resolved(scene, pipeline, options.time);
+    print_resolved(scene, pipeline, options.seconds());
   else
-    write_resolved(scene, pipeline, options.time, options.folder);
+    write_resolved(scene, pipeline, options.seconds(), options.folder);
 }
 
 }  // namespace

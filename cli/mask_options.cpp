@@ -45,29 +45,32 @@ compare::IgnoredIds ignored_from_text(const std::string& text) {
 
 }  // namespace
 
-void add_mask(CommandTable& table, MaskTexts& texts) {
+void add_mask(CommandTable& table, compare::MaskRules& rules) {
   table.open_group = "Mask";
-  add_value(
-      table, "--mask", "FILE", texts.file,
-      "Leave out the pixels that are 0, black, in this picture or .npy; 1 or white is looked at, and nothing else "
-      "may be in it");
-  add_values(table, "--ignore", "PLANE=LIST", texts.ignored,
-             "Leave out where the plane id.object or id.material holds a number of the list, like id.object=3,7-9: the "
-             "first object is 1, and 0 where nothing is drawn; may be repeated");
-  add_switch(table, "--allow-mask", texts.allow, "Let more than 10 % be left out");
+  const auto read_file = [](const std::string& text) {
+    if (text.empty()) throw usage("--mask", "the name is empty", "name a picture");
+    return text;
+  };
+  add_read(table, "--mask", "FILE", rules.file, read_file,
+           "Leave out the pixels that are 0, black, in this picture or .npy; 1 or white is looked at, and nothing else "
+           "may be in it");
+  OptionRow ignored{
+      .names = "--ignore",
+      .value_name = "PLANE=LIST",
+      .help =
+          "Leave out where the plane id.object or id.material holds a number of the list, like id.object=3,7-9: the "
+          "first object is 1, and 0 where nothing is drawn; may be repeated",
+      .is_repeated = true};
+  ignored.take = [&rules](const std::vector<std::string>& given) {
+    for (const std::string& text : given) rules.ignored.push_back(ignored_from_text(text));
+  };
+  table.add(std::move(ignored));
+  add_switch(table, "--allow-mask", rules.allow, "Let more than 10 % be left out");
 }
 
-compare::MaskRules mask_rules_of(const MaskTexts& texts) {
-  compare::MaskRules rules;
-  if (texts.file) {
-    if (texts.file->empty()) throw usage("--mask", "the name is empty", "name a picture");
-    rules.file = *texts.file;
-  }
-  for (const std::string& text : texts.ignored) rules.ignored.push_back(ignored_from_text(text));
-  rules.allow = texts.allow;
+void check_mask(const compare::MaskRules& rules) {
   if (rules.allow && !rules.any())
     throw usage("--allow-mask", "nothing is left out", "add --mask FILE or --ignore, or leave it out");
-  return rules;
 }
 
 }  // namespace trueshade

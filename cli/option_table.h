@@ -55,20 +55,33 @@ OptionRow& add_value(CommandTable& table, const char* names, const char* value_n
   return table.add(std::move(row));
 }
 
+/// The same of a value that `read` makes of its text. Error(usage) of a text that means nothing.
+template <typename Value, typename Read>
+OptionRow& add_read(CommandTable& table, const char* names, const char* value_name, Value& value, Read read,
+                    std::string help) {
+  OptionRow row{.names = names, .value_name = value_name, .help = std::move(help)};
+  row.take = [&value, read](const std::vector<std::string>& given) { value = read(given.back()); };
+  return table.add(std::move(row));
+}
+
 /// The same of one that may be repeated.
 OptionRow& add_values(CommandTable& table, const char* names, const char* value_name, std::vector<std::string>& texts,
                       std::string help);
 OptionRow& add_switch(CommandTable& table, const char* names, bool& on, std::string help);
 
-/// The same of a value that is one of some names; `help` ends with a colon where it is to list them.
+/// Says that the value of a row is one of some names; help that ends with a colon lists them.
+template <typename Names>
+OptionRow& of_names(OptionRow& row, const Names& choices) {
+  if (row.help.ends_with(':'))
+    for (const auto& choice : choices) row.help += ' ' + std::string(choice);
+  row.known_values.assign(std::begin(choices), std::end(choices));
+  return row;
+}
+
 template <typename Text, typename Names>
 OptionRow& add_choice(CommandTable& table, const char* names, const char* value_name, Text& text, std::string help,
                       const Names& choices) {
-  if (help.ends_with(':'))
-    for (const auto& choice : choices) help += ' ' + std::string(choice);
-  OptionRow& row = add_value(table, names, value_name, text, std::move(help));
-  row.known_values.assign(std::begin(choices), std::end(choices));
-  return row;
+  return of_names(add_value(table, names, value_name, text, std::move(help)), choices);
 }
 
 /// Its rows are in --help-limits and in man pages, and not in --help, where they would be a third of all rows.

@@ -52,11 +52,16 @@ Size size_from_text(const std::string& text, int most) {
   const auto height = integer(cross == std::string::npos ? "" : std::string_view(text).substr(cross + 1));
   if (!width || !height || *width < 1 || *height < 1)
     throw usage("--size", "'" + text + "' is not a size", "give WIDTHxHEIGHT in pixels, like 800x600");
-  const std::string limit = std::to_string(most);
-  if (*width > most || *height > most)
-    throw Error(ErrorKind::limit, "--size", "'" + text + "' is over " + limit + " pixels a side",
-                "at most " + limit + 'x' + limit);
+  check_size(*width, *height, most);
   return {int(*width), int(*height)};
+}
+
+void check_size(int64_t width, int64_t height, int most) {
+  const std::string limit = std::to_string(most);
+  if (width > most || height > most)
+    throw Error(ErrorKind::limit, "--size",
+                "'" + std::to_string(width) + 'x' + std::to_string(height) + "' is over " + limit + " pixels a side",
+                "at most " + limit + 'x' + limit);
 }
 
 std::chrono::seconds lost_after_from_text(const std::string& text) {

@@ -54,6 +54,10 @@ struct SceneOptions : LimitedOptions {
   std::string scene;  ///< a file or builtin:NAME
   SceneParts parts;
   CameraChanges camera;
+  std::optional<double>
+      time;  ///< seconds of the scene's timeline; nothing: 0, and of export the scene with all that moves
+
+  double seconds() const { return time.value_or(0.0); }
 };
 
 /// What is drawn. What is absent keeps the value of the layer below: preset, scene file, pipeline file.
@@ -75,16 +79,15 @@ struct PipelineOptions : SceneOptions {
 /// A cube map instead of the camera's picture.
 struct CubeMapOptions {
   std::optional<glm::vec3> eye;  ///< world; nothing: the camera's
-  bool cross = false;            ///< one picture of six faces, not a file for each
 };
 
 /// `trueshade render`
 struct RenderOptions : PipelineOptions {
   std::vector<std::string> outputs;  ///< .png, .exr or .html; with `frames`, names from frame_name(); - for raw video
-  double time = 0.0;                 ///< seconds; not read where there are frames
   std::optional<FrameRange> frames;
   std::optional<int> turntable;  ///< so many pictures around the scene; not beside `frames`
   std::optional<CubeMapOptions> cube_map;
+  bool cube_cross = false;            ///< one picture of six faces, not a file for each; only beside `cube_map`
   bool raw_video = false;             ///< the codes of every picture on standard output, one after the other
   std::optional<PngEncoding> encode;  ///< of .png outputs; nothing: as the target's values are
   std::vector<std::string> aovs;      ///< planes for .exr outputs, each is_aov_name()
@@ -113,14 +116,12 @@ struct InfoOptions : PipelineOptions {  // of which the camera is read by `resol
   std::string file;                     ///< a scene or an image
   bool resolved = false;                ///< every number of the scene, as the renderer has it
   bool json = false;                    ///< which `resolved` is anyway
-  double time = 0.0;                    ///< seconds of the scene's timeline
   std::string folder;  ///< for the files of `resolved`; made if it is not there; empty: standard output
 };
 
 /// `trueshade export`
 struct ExportOptions : SceneOptions {
-  std::string output;          ///< .glb, or - for standard output
-  std::optional<double> time;  ///< seconds; nothing: the scene with all that moves
+  std::string output;  ///< .glb, or - for standard output
 };
 
 /// `trueshade list`
@@ -133,7 +134,6 @@ struct ListOptions : CommonOptions {
 /// `trueshade glsl`: a pipeline's shaders and state, and with a scene the frame's data too.
 struct GlslFilesOptions : PipelineOptions {  // `scene` may be empty
   oracle::ShaderApi api = oracle::ShaderApi::gl;
-  double time = 0.0;   ///< seconds of the scene's timeline
   bool maps = false;   ///< without a scene: shaders of materials with colour, specular and normal maps
   std::string folder;  ///< made if it is not there
 };
@@ -142,7 +142,6 @@ struct GlslFilesOptions : PipelineOptions {  // `scene` may be empty
 struct ValidationOptions : PipelineOptions {
   std::optional<std::string> driver;   ///< one of kDriverNames; none of a capture
   std::optional<std::string> held_to;  ///< a profile's name or file, .json; nothing: what OpenGL promises of any
-  double time = 0.0;                   ///< seconds of the scene's timeline
   std::optional<int> subpixel_bits;    ///< of the driver's grid; nothing: what it says, 4 for a capture
   CaptureOptions capture;              ///< empty: draw one here
   compare::MaskRules mask;             ///< pixels that are not judged
@@ -179,8 +178,7 @@ struct BenchOptions : PipelineOptions {
 
 /// `trueshade explain`: how one pixel of `render` got its value.
 struct ExplainOptions : PipelineOptions {
-  double time = 0.0;                   ///< seconds of the scene's timeline
-  int x = 0, y = 0;                    ///< column and row of the pixel, from the top left
+  int x = -1, y = -1;                  ///< column and row of the pixel, from the top left
   std::optional<std::string> against;  ///< a picture whose value is to be found out
   bool all = false;                    ///< every triangle, light and draw, also those that change nothing
   bool json = false;
@@ -188,7 +186,6 @@ struct ExplainOptions : PipelineOptions {
 
 /// `trueshade view`: a scene in a window.
 struct ViewOptions : PipelineOptions {  // with `size` the picture keeps it, whatever the size of the window
-  double time = 0.0;                    ///< seconds of the scene's timeline
   std::optional<std::string> script;    ///< what is done in the window, a line each
   double scale = 0.0;                   ///< of texts and panels; 0: as the display's dots an inch ask for
   Execution execution;
@@ -201,12 +198,16 @@ struct CompareOptions : LimitedOptions {
   compare::MaskRules mask;
   std::vector<std::string> channels;  ///< names; empty: all
   bool bottom_up = false;             ///< the test's first row is its lowest
-  bool judges = true;                 ///< by the reference's scene, where it carries one and no criterion is given
+  std::optional<double> delta;        ///< of the criteria that have one
+  bool no_judge = false;              ///< values are compared, although the reference carries its scene
   std::vector<std::string> outputs;   ///< .png, .exr or .html; of folders .html and one folder
   std::optional<std::string> junit;   ///< .xml
   bool accept = false;                ///< copy test pictures that do not pass over their references
   std::string command_line;           ///< as it was given, for a shell
   bool json = false;
+
+  /// By the reference's scene, where it carries one.
+  bool judges() const { return !no_judge && rules.criteria.empty() && channels.empty() && !bottom_up; }
 };
 
 /// `trueshade batch`: jobs of a file.

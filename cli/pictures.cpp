@@ -196,7 +196,7 @@ std::vector<std::string> Pictures::outputs_of(std::optional<int> frame) const {
 }
 
 double Pictures::time_of(std::optional<int> frame) const {
-  return frame && !options_.turntable ? double(*frame) / scene_.timeline.fps : options_.time;
+  return frame && !options_.turntable ? double(*frame) / scene_.timeline.fps : options_.seconds();
 }
 
 void Pictures::picture(std::optional<int> frame, PictureSink& sink, const ProgressSeen& seen) {
@@ -253,13 +253,13 @@ void Pictures::cube_map(std::optional<int> frame, PictureSink& sink, const Progr
     reverse_rows(result.frame);
     std::vector<std::string> names;
     for (const std::string& path : paths) names.push_back(face_name(path, face));
-    if (options_.cube_map->cross)
+    if (options_.cube_cross)
       put_into_cross(result.frame, face, cross);
     else
       hand_out(options_, names, result, sink);
   }
   scene_.camera = camera;
-  if (!options_.cube_map->cross) return;
+  if (!options_.cube_cross) return;
   RenderedFrame result = result_of(frame);
   result.cube_map = cube_map_text(eye, "cross");
   result.frame = std::move(cross);

@@ -65,11 +65,11 @@ void shade(const ShadeOptions& options) {
   Scene scene = scene_of_options(options);
   Pipeline pipeline = pipeline_of(options, scene);
   pipeline.width = files.width(), pipeline.height = files.height();
-  show(scene, options.camera, pipeline, options.time);
+  show(scene, options.camera, pipeline, options.seconds());
   check_memory(scene, pipeline, execution_of(options), {}, file_memory(pipeline, {}, options.outputs, {}));
   const StoredPlanes planes = planes_to_light(options, files, scene, pipeline);
   files = {};
-  RenderedFrame result{scene, pipeline, execution_of(options), options.time, {}, {}, {}, {}};
+  RenderedFrame result{scene, pipeline, execution_of(options), options.seconds(), {}, {}, {}, {}};
   {
     ProgressBar bar("lighting", "tiles");
     result.frame = light_surfaces(scene, pipeline, result.execution, surfaces_of(planes.capture, pipeline),

@@ -38,7 +38,7 @@ std::string outputs_text(const RenderOptions& options) {
   text += looks_text(options.looks);
   text += camera_words(options.parts, options.camera);
   if (!options.cube_map) return text;
-  text += options.cube_map->cross ? " --cube-cross" : " --cube-map";
+  text += options.cube_cross ? " --cube-cross" : " --cube-map";
   if (const auto& eye = options.cube_map->eye)
     for (const float value : {eye->x, eye->y, eye->z}) text += ' ' + std::to_string(value);
   return text;
@@ -55,8 +55,8 @@ std::vector<std::pair<std::string, std::string>> identity_of(const RenderOptions
                                       std::to_string(region.width) + 'x' + std::to_string(region.height));
   identity.emplace_back("output", outputs_text(options));
   identity.emplace_back("pipeline", pipeline_json(of.pipeline));
-  const double first = options.frames ? double(options.frames->first) / of.scene.timeline.fps : options.time;
-  const double last = options.frames ? double(options.frames->last) / of.scene.timeline.fps : options.time;
+  const double first = options.frames ? double(options.frames->first) / of.scene.timeline.fps : options.seconds();
+  const double last = options.frames ? double(options.frames->last) / of.scene.timeline.fps : options.seconds();
   for (const auto& [name, time] : {std::pair{"scene", first}, {"scene at the last frame", last}}) {
     set_time(of.scene, time);
     identity.emplace_back(name, scene_hash(of.scene));

@@ -181,6 +181,52 @@ static Looks looks_of_capture(const CaptureFiles& files, std::vector<std::string
   return {};
 }
 
+/// Pixels whose surface, as far as depth and id.object tell, is in no legal set; `proof`: the worst of them.
+static uint64_t misplaced(const oracle::Capture& capture, const Scene& scene, const Validation& v,
+                          oracle::WorstPixel* proof = nullptr) {
+  oracle::Capture surfaces = capture;
+  surfaces.color = {};
+  std::erase_if(surfaces.planes, [](const NamedImage& p) { return p.name != "depth" && p.name != "id.object"; });
+  if (surfaces.planes.empty()) return 0;
+  const oracle::Verdict verdict = oracle::validate_capture(scene, v.pipeline, surfaces, {v.profile});
+  if (proof != nullptr && !verdict.stages[0].worst.empty()) *proof = verdict.stages[0].worst[0];
+  return verdict.stages[0].count(oracle::PixelClass::violation);
+}
+
+/// What the files hold with their rows the other way round, if that is where the surfaces are: one finding. Planes that
+/// are computed from others and the pixel's place must be read again for it; turning them over would not do.
+static std::optional<oracle::Finding> found_upside_down(const ValidationOptions& options, const Scene& scene,
+                                                        const Validation& v) {
+  oracle::WorstPixel proof;
+  const uint64_t as_read = misplaced(v.capture, scene, v, &proof);
+  if (as_read == 0) return std::nullopt;
+  bool from_bottom = false;
+  oracle::Capture turned;
+  try {
+    CaptureFiles files = capture_files_of(options.capture, options.limits);
+    for (PlaneChannelList& plane : files.planes) from_bottom = plane.mapped.bottom_up = !plane.mapped.bottom_up;
+    turned = captured_planes(files, scene, v.pipeline).capture;
+    store_as(v.pipeline, turned);
+  } catch (const Error&) {
+    return std::nullopt;  // distances, say, that no surface has there; or files that can be read but once
+  }
+  const uint64_t otherwise = misplaced(turned, scene, v);
+  constexpr double kMostLeft = 0.1;
+  if (double(otherwise) > kMostLeft * double(as_read)) return std::nullopt;
+  const std::string rows = from_bottom ? "rows=bottom_up" : "rows=top_down";
+  oracle::Finding finding;
+  finding.name = rows;
+  finding.plane = "capture";
+  finding.text = std::string("the rows of its files run from the ") +
+                 (from_bottom ? "bottom, as glReadPixels gives them" : "top") + ", so read it with " + rows +
+                 " in --map";
+  finding.changed = as_read;
+  finding.explained = 1 - double(otherwise) / double(as_read);
+  finding.proof = {proof.x, proof.y, proof.plane, proof.given, proof.nominal, proof.given};
+  if (!options.capture.map) finding.command = "trueshade" + options.command_line + " --map " + rows;
+  return finding;
+}
+
 bool judge_opengl(const ValidationOptions& options) {
   check_pipeline(options);
   check_outputs(options);
@@ -199,7 +245,7 @@ bool judge_opengl(const ValidationOptions& options) {
   if (files && looks_text(options.looks).empty()) as_captured.looks = looks_of_capture(*files, v.notes);
   const Looks looks = bring_to_looks(as_captured, asked, files ? ChosenLooks::never : ChosenLooks::by_scene, scene);
   v.pipeline = with_planes_of_program(asked);
-  show(scene, options.camera, asked, options.time);
+  show(scene, options.camera, asked, options.seconds());
   check_memory(scene, v.pipeline, {}, {}, judging_memory(options, v.pipeline));
   if (names_vulkan(options.driver)) v.profile = *oracle::profile_named("vulkan");
   if (options.held_to) v.profile = profile_of(*options.held_to);
@@ -231,9 +277,12 @@ bool judge_opengl(const ValidationOptions& options) {
   });
   activity->now("finding what explains it");
   v.is_diagnosed = v.verdict.violations() > 0 || v.verdict.convicted() || !options.supposed.empty();
-  if (v.is_diagnosed) find_explanation(scene, v, options.supposed);
+  if (options.capture.given() && options.supposed.empty() && v.verdict.violations() > 0)
+    if (const auto upside_down = found_upside_down(options, scene, v)) v.findings = {*upside_down};
+  if (v.is_diagnosed && v.findings.empty()) find_explanation(scene, v, options.supposed);
   for (size_t i = 0; i < v.findings.size(); ++i) {
-    if (v.findings[i].name.starts_with("light-shader-")) continue;  // an edit of the text: nothing to suppose
+    // An edit of the text, or another way to read the files: nothing to suppose.
+    if (v.findings[i].name.starts_with("light-shader-") || v.findings[i].plane == "capture") continue;
     v.findings[i].command = "trueshade" + options.command_line;
     if (!options.supposed.empty()) continue;
     if (v.findings[i].together) v.findings[i].command = v.findings[i - 1].command;
@@ -249,7 +298,7 @@ bool judge_opengl(const ValidationOptions& options) {
     const std::string against = !options.saved.empty() ? options.saved.front() : picture_of(options.capture);
     ValidationOptions as_drawn = options;
     as_drawn.looks = looks;
-    v.explain_command = explain_command(as_drawn, options.camera, v.pipeline, options.time, against);
+    v.explain_command = explain_command(as_drawn, options.camera, v.pipeline, options.seconds(), against);
     const std::string page = validation_page(v, scene);
     write_text(*options.report, page);
   }

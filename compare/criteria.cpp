@@ -22,8 +22,6 @@ Judged judged(const Criterion& criterion, double measured) {
 
 bool is_flip(Measure measure) { return measure == Measure::flip_mean || measure == Measure::flip_weighted_median; }
 
-bool has_delta(Measure measure) { return measure == Measure::pixels_beyond || measure == Measure::window_share; }
-
 std::string_view name_of(Measure measure) {
   switch (measure) {
     case Measure::unequal_pixels:

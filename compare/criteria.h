@@ -36,7 +36,9 @@ struct Judged {
 Judged judged(const Criterion& criterion, double measured);
 
 bool is_flip(Measure measure);
-bool has_delta(Measure measure);
+constexpr bool has_delta(Measure measure) {
+  return measure == Measure::pixels_beyond || measure == Measure::window_share;
+}
 
 /// `largest_difference`, ... as JSON has it, and as people read it: `largest difference 0.0157 (at most 0.02)`.
 std::string_view name_of(Measure measure);

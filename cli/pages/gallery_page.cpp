@@ -169,7 +169,7 @@ std::string filters_part(const FolderComparison& folders) {
 
 std::string gallery_page(const FolderComparison& folders, const CompareOptions& given, const std::string& gallery) {
   CompareOptions options = given;  // of what is compared again for its pictures
-  options.rules.wants_flip = options.judges = false;
+  options.rules.wants_flip = false, options.no_judge = true;
   const size_t failing = folders.failures(), passing = folders.rows.size() - failing;
   const size_t of_passing = std::min(kMostPassing, kMostBytes / 3 / std::max<size_t>(1, passing));
   const size_t of_failing =

@@ -14,8 +14,6 @@
 namespace trueshade {
 namespace {
 
-using Arguments = std::vector<std::string>;
-
 void check_render_refused(const Arguments& options, int exit_code, const std::string& about) {
   const ScratchFolder folder;
   Arguments arguments = {"render", "builtin:cornell", "-o", "x.png"};

@@ -10,8 +10,6 @@
 namespace trueshade {
 namespace {
 
-using Arguments = std::vector<std::string>;
-
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// Our own frame of builtin:cornell with fronts culled, as c.exr.

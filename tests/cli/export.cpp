@@ -13,8 +13,6 @@
 namespace trueshade {
 namespace {
 
-using Arguments = std::vector<std::string>;
-
 std::string contents(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};

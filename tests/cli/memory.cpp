@@ -23,8 +23,6 @@
 namespace trueshade {
 namespace {
 
-using Arguments = std::vector<std::string>;
-
 /// How a run ended, and the most memory it had.
 struct Run {
   Outcome outcome;

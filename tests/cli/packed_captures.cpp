@@ -168,6 +168,47 @@ TEST_CASE(
   CHECK(bent["lighting"]["VIOLATION"] == 0);
 }
 
+TEST_CASE("A packed capture whose rows are read from the wrong end is told apart from wrong normals and positions") {
+  const DrawnCapture c;
+  write_dds(c.path("up.dds"),
+            bottom_up(repacked(c.normal, 2,
+                               [](const double* n, double* e) {
+                                 octahedral(n, e);
+                                 for (int k = 0; k < 2; ++k) e[k] = e[k] * 0.5 + 0.5;
+                               })),
+            49);
+  write_npy(c.path("z.npy"), bottom_up(c.depth), "<f4");
+  write_npy(c.path("o.npy"), bottom_up(c.object), "<f4");
+  write_npy(c.path("a.npy"), bottom_up(c.albedo), "<f4");
+  const auto diagnosis = [&](const Words& options) {
+    const Outcome outcome = c.judge(options);
+    INFO(outcome.err);
+    REQUIRE((outcome.exit_code == 0 || outcome.exit_code == 1));
+    return nlohmann::json::parse(outcome.out)["diagnosis"];
+  };
+  const std::string map =
+      "depth=z.npy.R,id.object=o.npy.R,albedo=a.npy.RGBA,normal=up.dds:octahedral:unorm,position=z.npy.R:window";
+  CHECK(violations(c.counts({"--map", map + ",rows=bottom_up"})) == 0);
+  const auto read_as_it_is = diagnosis({"--map", map});
+  REQUIRE(read_as_it_is.size() == 1);
+  CHECK(read_as_it_is[0]["name"] == "rows=bottom_up");
+  CHECK(read_as_it_is[0]["explained"] == 1);
+  CHECK(read_as_it_is[0]["proof"]["plane"] != "");
+
+  // Ours has its rows from the top, as a file without a map is taken.
+  const auto turned = diagnosis({"--gbuffer", "c.exr", "--map", "rows=bottom_up"});
+  REQUIRE(turned.size() == 1);
+  CHECK(turned[0]["name"] == "rows=top_down");
+
+  // Surfaces that are elsewhere, but not upside down.
+  EnginePlane moved = c.depth;
+  for (int y = 0; y < moved.height; ++y)
+    for (int x = 0; x + 3 < moved.width; ++x) moved.at(x, y, 0) = c.depth.at(x + 3, y, 0);
+  write_npy(c.path("moved.npy"), moved, "<f4");
+  for (const auto& finding : diagnosis({"--gbuffer", "c.exr", "--map", "depth=moved.npy.R"}))
+    CHECK(finding["plane"] != "capture");
+}
+
 TEST_CASE("View space and distances are told from an engine's matrix too, Vulkan's and Direct3D's among them") {
   const DrawnCapture c;
   const Axes axes = axes_of(c);

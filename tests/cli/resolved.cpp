@@ -18,7 +18,6 @@ namespace trueshade {
 namespace {
 
 using Json = nlohmann::json;
-using Arguments = std::vector<std::string>;
 
 Outcome resolve(const std::string& scene, const ScratchFolder& folder, const Arguments& more = {},
                 const std::string& setup = "true") {
@@ -121,11 +120,10 @@ TEST_CASE("info --resolved prints each float of a scene so that it reads back to
     REQUIRE(json["objects"].size() == scene.instances.size());
     for (size_t i = 0; i < scene.instances.size(); ++i)
       for (int r = 0; r < 3; ++r)
-        CHECK(same_bits(json["objects"][i]["world_from_object"][size_t(r)],
-                        glm::vec4(scene.instances[i].world_from_object[0][r],
-                                  scene.instances[i].world_from_object[1][r],
-                                  scene.instances[i].world_from_object[2][r],
-                                  scene.instances[i].world_from_object[3][r])));
+        CHECK(same_bits(
+            json["objects"][i]["world_from_object"][size_t(r)],
+            glm::vec4(scene.instances[i].world_from_object[0][r], scene.instances[i].world_from_object[1][r],
+                      scene.instances[i].world_from_object[2][r], scene.instances[i].world_from_object[3][r])));
     for (size_t i = 0; i < scene.materials.size(); ++i)
       CHECK(same_bits(json["materials"][i]["base_color"], scene.materials[i].base_color));
     for (size_t m = 0; m < scene.meshes.size(); ++m)
@@ -170,8 +168,8 @@ TEST_CASE("info --resolved -o puts arrays into a file at the places that the doc
   const LightMeshes meshes(preset_pipeline("redsdk")->light_volumes);
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     if (!json["lights"][i].contains("vertices")) continue;
-    std::vector<glm::vec3> vertices(meshes[drawn_extent(scene.lights[i], preset_pipeline("redsdk")->light_volumes)]
-                                        .unit.size());
+    std::vector<glm::vec3> vertices(
+        meshes[drawn_extent(scene.lights[i], preset_pipeline("redsdk")->light_volumes)].unit.size());
     light_vertices(meshes[drawn_extent(scene.lights[i], preset_pipeline("redsdk")->light_volumes)], scene.lights[i],
                    vertices);
     CHECK(holds(json["lights"][i]["vertices"], vertices.data(), 12 * vertices.size(), {vertices.size(), 3}));

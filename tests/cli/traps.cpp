@@ -12,8 +12,6 @@
 namespace trueshade {
 namespace {
 
-using Arguments = std::vector<std::string>;
-
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::string contents(const std::string& path) {

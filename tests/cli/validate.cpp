@@ -17,8 +17,6 @@
 namespace trueshade {
 namespace {
 
-using Arguments = std::vector<std::string>;
-
 constexpr int kNoDriver = 7;
 
 /// Our own frame of builtin:cornell as c.exr (target and planes) and c.png.

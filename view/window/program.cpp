@@ -66,7 +66,7 @@ void run_window(const ViewOptions& options) {
   if (const Scene& scene = opened.scene->scene(); options.camera.any())
     camera = camera_of(scene, options.camera, opened.facts.pipeline).camera(scene);
   Session session(source, std::move(opened), options.execution, [&display] { display.wake(); });
-  if (options.time != 0.0) session.set_time(options.time);
+  if (options.time) session.set_time(*options.time);
   if (camera) session.set_camera(*camera);
   Window window(display, session, look);
   ScriptPlayer player(std::move(steps), options.script.value_or(""), session, window);

@@ -1,4 +1,4 @@
-#include "cli/option_texts.h"
+#include "cli/option_checks.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -45,9 +45,9 @@ void check_cube_map(const RenderOptions& options) {
   for (const std::string& path : options.outputs)
     if (has_ending(path, ".html"))
       throw usage("--cube-map", "a report shows the camera's picture", "end the names after -o in .png or .exr");
-    else if (is_standard_output(path) && !options.cube_map->cross)
+    else if (is_standard_output(path) && !options.cube_cross)
       throw usage("--cube-map", "standard output takes one picture, and there are six", "add --cube-cross");
-  if (options.cube_map->cross && (options.stats || options.json))
+  if (options.cube_cross && (options.stats || options.json))
     throw usage("--cube-cross", "statistics are those of one picture drawn",
                 "leave out --cube-cross, or --stats and --json");
 }
@@ -90,30 +90,27 @@ void check_outputs(const RenderOptions& options) {
 
 void check_capture(const CaptureOptions& options) { check_named_once("--gbuffer", options.gbuffer_files); }
 
-}  // namespace
-
-std::string CameraTexts::given() const {
-  for (const auto& [name, text] : {std::pair{"--camera", &camera},
-                                   {"--orbit", &orbit},
-                                   {"--eye", &eye},
-                                   {"--look-at", &look_at},
-                                   {"--fov", &fov},
-                                   {"--animation", &animation}})
-    if (*text) return name;
+/// The option that says which camera sees the scene, or from where, if there is one.
+std::string camera_option(const SceneOptions& options) {
+  const CameraChanges& camera = options.camera;
+  for (const auto& [name, is_given] : {std::pair{"--camera", options.parts.camera.has_value()},
+                                       {"--orbit", camera.orbit.has_value()},
+                                       {"--eye", camera.eye.has_value()},
+                                       {"--look-at", camera.target.has_value()},
+                                       {"--fov", camera.fov_y_deg.has_value()}})
+    if (is_given) return name;
   return {};
 }
 
-namespace {
-
-void set_camera(const CameraTexts& texts, SceneOptions& options) {
-  options.parts = {texts.camera, texts.animation};
-  CameraChanges& camera = options.camera;
-  if (texts.orbit && texts.eye)
+void check_scene_options(const SceneOptions& options) {
+  if (options.camera.orbit && options.camera.eye)
     throw usage("--eye", "--orbit and --eye both say where the camera is", "leave out one of the two");
-  if (texts.orbit) camera.orbit = orbit_from_text(*texts.orbit);
-  if (texts.eye) camera.eye = world_place_from_text("--eye", *texts.eye);
-  if (texts.look_at) camera.target = world_place_from_text("--look-at", *texts.look_at);
-  if (texts.fov) camera.fov_y_deg = fov_from_text(*texts.fov);
+}
+
+void check_pipeline_options(const PipelineOptions& options) {
+  check_looks(options.looks);
+  check_scene_options(options);
+  check_preset(options.preset);
 }
 
 }  // namespace
@@ -125,35 +122,18 @@ void check_named_once(const std::string& option, std::vector<std::string> files)
   if (twice != files.end()) throw usage(option, "'" + *twice + "' is named twice", "give each file a name of its own");
 }
 
-RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
-  check_looks(options.looks);
+RenderOptions finished(RenderOptions options) {
+  check_pipeline_options(options);
   if (!options.raw_video)
     for (std::string& path : options.outputs) path = output_with_ending(path);
-  if (texts.size) options.size = size_from_text(*texts.size, kMostPictureSide);
-  if (texts.region) options.execution.region = region_from_text(*texts.region);
-  if (texts.time && texts.frames) throw usage("--frames", "--time and --frames exclude each other", "give one of them");
-  if (texts.time) options.time = time_from_text(*texts.time);
-  if (texts.frames) options.frames = frames_from_text(*texts.frames);
-  if (texts.turntable && texts.frames)
+  if (options.time && options.frames)
+    throw usage("--frames", "--time and --frames exclude each other", "give one of them");
+  if (options.turntable && options.frames)
     throw usage("--turntable", "--turntable and --frames both number the pictures",
                 "leave out one of them; --time says when a turntable is seen");
-  if (texts.turntable) options.turntable = integer_in("--turntable", *texts.turntable, 1, kMostFrames);
-  set_camera(texts.camera, options);
-  if (texts.target) options.target = target_from_text("--target", *texts.target);
-  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
-  if (texts.profile) options.profile = profile_from_text(*texts.profile);
-  if (texts.view) options.view = view_from_text("--view", *texts.view);
-  if (texts.encode) options.encode = encoding_from_text(*texts.encode);
-  if (texts.aov) options.aovs = aovs_from_text("--aov", *texts.aov);
-  if (texts.cube_cross && !texts.cube_map)
+  if (options.cube_cross && !options.cube_map)
     throw usage("--cube-cross", "there is no cube map", "add --cube-map X,Y,Z or --cube-map eye");
-  if (texts.cube_map) options.cube_map = {cube_eye_from_text(*texts.cube_map), texts.cube_cross};
-  if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
-  if (texts.tile) options.execution.tile = tile_from_text("--tile", *texts.tile);
-  if (texts.lost_after) options.sharing.lost_after = lost_after_from_text(*texts.lost_after);
-  options.execution.light_culling = !texts.no_light_culling;
   options.execution.count_as_gl = options.stats || options.json;
-  check_preset(options.preset);
   check_scene(options.scene);
   check_simd("--simd", options.simd);
   validate(execution_of(options));
@@ -163,63 +143,45 @@ RenderOptions finished(RenderOptions options, const RenderTexts& texts) {
   return options;
 }
 
-InfoOptions finished(InfoOptions options, const InfoTexts& texts) {
-  CameraTexts seen = texts.camera;
-  seen.animation.reset();
-  const std::string camera = seen.given();
-  const std::pair<const char*, bool> of_numbers[] = {{"-o", texts.folder.has_value()},
+InfoOptions finished(InfoOptions options) {
+  check_pipeline_options(options);
+  const std::string camera = camera_option(options);
+  const std::pair<const char*, bool> of_numbers[] = {{"-o", !options.folder.empty()},
                                                      {camera.c_str(), !camera.empty()}};
   for (const auto& [name, is_given] : of_numbers)
     if (is_given && !options.resolved)
       throw usage(name, "only a scene's numbers as the renderer has them depend on it", "add --resolved");
   const std::pair<const char*, bool> of_scenes[] = {
-      {"--preset", options.preset.has_value()},   {"--pipeline", options.pipeline_file.has_value()},
-      {"--size", texts.size.has_value()},         {"--target", texts.target.has_value()},
-      {"--strategy", texts.strategy.has_value()}, {"--profile", texts.profile.has_value()},
-      {"--time", texts.time.has_value()},         {"--animation", texts.camera.animation.has_value()}};
+      {"--preset", options.preset.has_value()},     {"--pipeline", options.pipeline_file.has_value()},
+      {"--size", options.size.has_value()},         {"--target", options.target.has_value()},
+      {"--strategy", options.strategy.has_value()}, {"--profile", options.profile.has_value()},
+      {"--time", options.time.has_value()},         {"--animation", options.parts.animation.has_value()}};
   for (const auto& [name, is_given] : of_scenes)
     if (is_given && is_picture_name(options.file))
       throw usage(name, "nothing in a picture's file depends on it", "leave it out, or name a scene");
-  if (texts.folder && texts.folder->empty()) throw usage("-o", "'' is no name of a folder", "name one");
-  check_preset(options.preset);
   check_scene(options.file);
   options.scene = options.file;
-  if (texts.size) options.size = size_from_text(*texts.size);
-  if (texts.target) options.target = target_from_text("--target", *texts.target);
-  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
-  if (texts.profile) options.profile = profile_from_text(*texts.profile);
-  if (texts.time) options.time = time_from_text(*texts.time);
-  options.folder = texts.folder.value_or("");
-  set_camera(texts.camera, options);
   return options;
 }
 
-GlslFilesOptions finished(GlslFilesOptions options, const GlslTexts& texts) {
-  check_preset(options.preset);
+GlslFilesOptions finished(GlslFilesOptions options) {
+  check_pipeline_options(options);
   if (options.scene.empty() && !options.preset)
     throw usage("glsl", "neither a scene nor a preset is named", "name a scene, or add --preset NAME");
   if (!options.scene.empty() && options.maps)
     throw usage("--maps", "the scene's materials say which maps there are", "leave out --maps or the scene");
-  if (options.scene.empty() && texts.time) throw usage("--time", "there is no scene", "name one, or leave out --time");
-  if (const std::string given = texts.camera.given(); options.scene.empty() && !given.empty())
-    throw usage(given, "there is no scene", "name one, or leave out " + given);
-  set_camera(texts.camera, options);
-  if (texts.size) options.size = size_from_text(*texts.size);
-  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
-  if (texts.time) options.time = time_from_text(*texts.time);
-  if (texts.api) {
-    const auto found = std::find(std::begin(oracle::kShaderApiNames), std::end(oracle::kShaderApiNames), *texts.api);
-    if (found == std::end(oracle::kShaderApiNames))
-      throw unknown_name("--api", "there is no", *texts.api, oracle::kShaderApiNames);
-    options.api = oracle::ShaderApi(found - std::begin(oracle::kShaderApiNames));
-  }
+  if (options.scene.empty() && options.time)
+    throw usage("--time", "there is no scene", "name one, or leave out --time");
+  std::string camera = camera_option(options);
+  if (camera.empty() && options.parts.animation) camera = "--animation";
+  if (options.scene.empty() && !camera.empty())
+    throw usage(camera, "there is no scene", "name one, or leave out " + camera);
   return options;
 }
 
-ExportOptions finished(ExportOptions options, const ExportTexts& texts) {
+ExportOptions finished(ExportOptions options) {
   check_scene(options.scene);
-  if (texts.time) options.time = time_from_text(*texts.time);
-  set_camera(texts.camera, options);
+  check_scene_options(options);
   if (options.output != "-" && !has_ending(options.output, ".glb"))
     throw usage("-o", "a scene is not written to '" + options.output + "'",
                 "end the name in .glb, or - for standard output");
@@ -244,17 +206,10 @@ ProbeOptions finished(ProbeOptions options) {
   return options;
 }
 
-ValidationOptions finished(ValidationOptions options, const ValidationTexts& texts) {
-  check_looks(options.looks);
-  set_camera(texts.camera, options);
-  options.mask = mask_rules_of(texts.mask);
-  if (texts.size) options.size = size_from_text(*texts.size);
-  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
-  if (texts.time) options.time = time_from_text(*texts.time);
+ValidationOptions finished(ValidationOptions options) {
+  check_pipeline_options(options);
+  check_mask(options.mask);
   check_scene(options.scene);
-  if (texts.subpixel_bits) options.subpixel_bits = integer_in("--subpixel-bits", *texts.subpixel_bits, 4, 16);
-  if (texts.significance) options.significance = chance_from_text("--significance", *texts.significance);
-  check_preset(options.preset);
   check_driver(options.driver);
   check_capture(options.capture);
   if (options.driver && options.capture.given())
@@ -276,16 +231,10 @@ ValidationOptions finished(ValidationOptions options, const ValidationTexts& tex
   return options;
 }
 
-ShadeOptions finished(ShadeOptions options, const ShadeTexts& texts) {
-  set_camera(texts.camera, options);
+ShadeOptions finished(ShadeOptions options) {
+  check_pipeline_options(options);
   for (std::string& path : options.outputs) path = output_with_ending(path);
   check_standard_output(options.outputs, printing_option(options));
-  if (texts.time) options.time = time_from_text(*texts.time);
-  if (texts.target) options.target = target_from_text("--target", *texts.target);
-  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
-  if (texts.profile) options.profile = profile_from_text(*texts.profile);
-  if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
-  check_preset(options.preset);
   check_scene(options.scene);
   check_capture(options.capture);
   check_named_once("-o", options.outputs);
@@ -298,30 +247,21 @@ ShadeOptions finished(ShadeOptions options, const ShadeTexts& texts) {
   return options;
 }
 
-ExplainOptions finished(ExplainOptions options, const ExplainTexts& texts) {
-  check_looks(options.looks);
-  set_camera(texts.camera, options);
-  if (texts.size) options.size = size_from_text(*texts.size);
-  if (texts.time) options.time = time_from_text(*texts.time);
-  if (texts.target) options.target = target_from_text("--target", *texts.target);
-  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
-  if (texts.profile) options.profile = profile_from_text(*texts.profile);
-  if (!texts.pixel) throw usage("--pixel", "no pixel is named", "add --pixel X,Y, counted from the top left");
-  const PixelPlace place = place_from_text("--pixel", *texts.pixel);
-  options.x = place.x, options.y = place.y;
+ExplainOptions finished(ExplainOptions options) {
+  check_pipeline_options(options);
+  if (options.x < 0) throw usage("--pixel", "no pixel is named", "add --pixel X,Y, counted from the top left");
   if (options.against && options.limits.leniency == Leniency::asked)
     throw usage("--lenient", "no picture is held to a scene whose faults are passed over", "leave it or --against out");
-  check_preset(options.preset);
   check_scene(options.scene);
   return options;
 }
 
-BenchOptions finished(BenchOptions options, const BenchTexts& texts) {
-  set_camera(texts.camera, options);
+BenchOptions finished(BenchOptions options) {
+  check_pipeline_options(options);
   for (const auto& [name, is_given] : {std::pair{"SCENE", !options.scenes.empty()},
-                                       {"--against", texts.against.has_value()},
-                                       {"--size", texts.size.has_value()},
-                                       {"--strategy", texts.strategy.has_value()},
+                                       {"--against", !options.against.empty()},
+                                       {"--size", options.size.has_value()},
+                                       {"--strategy", options.strategy.has_value()},
                                        {"--preset", options.preset.has_value()},
                                        {"--pipeline", options.pipeline_file.has_value()},
                                        {"--light-shader", options.light_shader.has_value()},
@@ -338,13 +278,8 @@ BenchOptions finished(BenchOptions options, const BenchTexts& texts) {
     if (!options.ranks)
       options.scenes.insert(options.scenes.end(), {"builtin:rabbits", "builtin:sphere", "builtin:red"});
   }
-  if (texts.size) options.size = size_from_text(*texts.size, options.ranks ? kMostPictureSide : kMostDrawnSide);
-  if (texts.frames) options.frames = frames_from_text(*texts.frames);
-  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
-  if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
-  if (texts.against) options.against = peers_from_text(*texts.against);
+  if (options.size && !options.ranks) check_size(options.size->width, options.size->height, kMostDrawnSide);
   for (const std::string& scene : options.scenes) check_scene(scene);
-  check_preset(options.preset);
   check_simd("--simd", options.simd);
   if (options.report && !has_ending(*options.report, ".html"))
     throw usage("-o", "a report does not end like '" + *options.report + "'", "end the name in .html");
@@ -359,18 +294,8 @@ BenchOptions finished(BenchOptions options, const BenchTexts& texts) {
   return options;
 }
 
-ViewOptions finished(ViewOptions options, const ViewTexts& texts) {
-  check_looks(options.looks);
-  set_camera(texts.camera, options);
-  if (texts.size) options.size = size_from_text(*texts.size);
-  if (texts.time) options.time = time_from_text(*texts.time);
-  if (texts.target) options.target = target_from_text("--target", *texts.target);
-  if (texts.strategy) options.strategy = strategy_from_text("--strategy", *texts.strategy);
-  if (texts.profile) options.profile = profile_from_text(*texts.profile);
-  if (texts.view) options.view = view_from_text("--view", *texts.view);
-  if (texts.threads) options.execution.threads = integer_in("--threads", *texts.threads, 0, 1024);
-  if (texts.scale) options.scale = integer_in("--ui-scale", *texts.scale, 50, 400) / 100.0;
-  check_preset(options.preset);
+ViewOptions finished(ViewOptions options) {
+  check_pipeline_options(options);
   check_scene(options.scene);
   return options;
 }
