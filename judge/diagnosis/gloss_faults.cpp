@@ -11,8 +11,8 @@ namespace {
 
 using Numbers = std::array<double, 4> PlaneValues::*;
 
-double encoded_srgb(double v) { return double(srgb_encoded(std::max(0.0, v))); }
-double decoded_srgb(double v) { return double(srgb_decoded(std::max(0.0, v))); }
+double encoded_srgb(double v) { return srgb_encoded(std::max(0.0, v)); }
+double decoded_srgb(double v) { return srgb_decoded(std::max(0.0, v)); }
 
 template <Numbers Of, double (*Change)(double)>
 void recoded(const PlaneContext&, PlaneValues& v, double) {

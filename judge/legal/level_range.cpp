@@ -172,15 +172,6 @@ void include(TexelHull& hull, const TexelHull& other) {
     hull[c].low = std::min(hull[c].low, other[c].low), hull[c].high = std::max(hull[c].high, other[c].high);
 }
 
-long double srgb_encoded(long double x) {
-  return x <= 0.0031308L ? 12.92L * x : 1.055L * std::pow(x, 1 / 2.4L) - 0.055L;
-}
-
-long double srgb_decoded(long double s) {
-  if (s <= 0.04045L) return std::max(0.0L, s) / 12.92L;
-  return std::pow((std::min(s, 1.0L) + 0.055L) / 1.055L, 2.4L);
-}
-
 long double mesa_decoded(long double s) {
   if (s * 255 <= 15) return s / 12.6L;
   return 0.0023L + s * (0.0030L + s * (0.6935L + s * 0.3012L));

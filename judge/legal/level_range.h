@@ -1,5 +1,8 @@
 #pragma once
 // What a filter may make of one level of a texture, over a box of texture coordinates.
+#include <algorithm>
+#include <cmath>
+
 #include "judge/bounds/level_hulls.h"
 #include "judge/legal/store.h"
 #include "oracle/texture_lookup.h"
@@ -12,8 +15,15 @@ TexelHull no_texel();
 void include(TexelHull& hull, const TexelHull& other);
 
 /// sRGB as real numbers.
-long double srgb_encoded(long double x);
-long double srgb_decoded(long double s);
+template <class Real>
+Real srgb_encoded(Real x) {
+  return x <= Real(0.0031308L) ? Real(12.92L) * x : Real(1.055L) * std::pow(x, Real(1 / 2.4L)) - Real(0.055L);
+}
+template <class Real>
+Real srgb_decoded(Real s) {
+  if (s <= Real(0.04045L)) return std::max(Real(0), s) / Real(12.92L);
+  return std::pow((std::min(s, Real(1)) + Real(0.055L)) / Real(1.055L), Real(2.4L));
+}
 
 /// The same as Mesa 22.3 decodes it (gallium/auxiliary/gallivm/lp_bld_format_srgb.c): a line, and a polynomial from
 /// code 16 on.

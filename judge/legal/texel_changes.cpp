@@ -11,14 +11,23 @@ namespace {
 
 using Rgba = TexelChanges::Rgba;
 
-/// A texture as it may be read, at one place.
+/// A texture as it may be read, at one place. In doubles, and of one point, which level_range() of a box is too slow
+/// for.
 struct Lookup {
   TexelSource texels;
   double u, v;
 
   Rgba at_level(size_t level, Filter filter) const {
-    const TexelHull hull = level_range(texels, level, filter, {u, u, u}, {v, v, v}, true);
-    return {hull[0].low, hull[1].low, hull[2].low, hull[3].low};
+    const TextureLevel& l = texels.texture.levels[level];
+    const bool linear = filter == Filter::linear;
+    const double shift = linear ? 0.5 : 0, x = u * l.width - shift, y = v * l.height - shift;
+    constexpr double kFarthest = 0x1p40;
+    if (!(std::fabs(x) < kFarthest && std::fabs(y) < kFarthest)) return texel(level, 0, 0);
+    const auto i = (long long)(std::floor(x)), j = (long long)(std::floor(y));
+    if (!linear) return texel(level, i, j);
+    const double right = x - double(i), up = y - double(j);
+    return between(between(texel(level, i, j), texel(level, i + 1, j), right),
+                   between(texel(level, i, j + 1), texel(level, i + 1, j + 1), right), up);
   }
 
   /// As oracle::filtered() has it.
@@ -31,11 +40,22 @@ struct Lookup {
       return at_level(size_t(level), s.min_filter);
     }
     const double low = std::min(std::floor(lod), last), part = lod >= last ? 0 : lod - low;
-    Rgba texel = at_level(size_t(low), s.min_filter);
-    if (part == 0) return texel;
-    const Rgba next = at_level(size_t(low) + 1, s.min_filter);
-    for (size_t c = 0; c < 4; ++c) texel[c] += part * (next[c] - texel[c]);
-    return texel;
+    const Rgba texel = at_level(size_t(low), s.min_filter);
+    return part == 0 ? texel : between(texel, at_level(size_t(low) + 1, s.min_filter), part);
+  }
+
+ private:
+  Rgba texel(size_t level, long long i, long long j) const {
+    const TextureLevel& l = texels.texture.levels[level];
+    const TexelValue t = texels.at_wrapped(level, wrapped_index(texels.sampler.wrap[0], i, l.width),
+                                           wrapped_index(texels.sampler.wrap[1], j, l.height));
+    return {double(t[0]), double(t[1]), double(t[2]), double(t[3])};
+  }
+
+  static Rgba between(const Rgba& a, const Rgba& b, double part) {
+    Rgba out;
+    for (size_t c = 0; c < 4; ++c) out[c] = a[c] + part * (b[c] - a[c]);
+    return out;
   }
 };
 
@@ -84,8 +104,8 @@ Rgba change_of_steps(const Texture& texture, const Rgba& texel, const std::array
     for (const Rgba* slope : slopes) steps += std::fabs((*slope)[c]) > 1e-9 ? 1 : 0;
     double code = 1 / 255.0;
     if (srgb && c < 3) {
-      const long double s = srgb_encoded(texel[c]);
-      code = double(srgb_decoded(std::min(1.0L, s + 0.5L / 255)) - srgb_decoded(std::max(0.0L, s - 0.5L / 255)));
+      const double s = srgb_encoded(texel[c]);
+      code = srgb_decoded(std::min(1.0, s + 0.5 / 255)) - srgb_decoded(std::max(0.0, s - 0.5 / 255));
     }
     out[c] = steps * code;
   }
@@ -106,7 +126,7 @@ class Reading {
     const bool late = is_srgb() && way_.late != other_order;
     Rgba texel = Lookup{{texture_, sampler_, rules_, nullptr, late}, u, v}.at(lod);
     for (size_t c = 0; c < 3 && late; ++c)
-      texel[c] = double(way_.mesa ? mesa_decoded(texel[c]) : srgb_decoded(texel[c]));
+      texel[c] = way_.mesa ? double(mesa_decoded(texel[c])) : srgb_decoded(texel[c]);
     return texel;
   }
 

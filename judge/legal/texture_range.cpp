@@ -123,8 +123,8 @@ Stretch lod_range(const Texture& texture, const Sampler& s, const TextureSample&
 }
 
 /// What the sampler's filters make of the texels, in real arithmetic, and how many linear steps at most that took.
-TexelHull filtered_range(const TexelSource& texels, const Stretch& lod, const TextureSample& at,
-                         const Profile& profile, int& steps) {
+TexelHull filtered_range(const TexelSource& texels, const Stretch& lod, const TextureSample& at, const Profile& profile,
+                         int& steps) {
   const Sampler& s = texels.sampler;
   // OpenGL lets the two filters meet at 0.5 where the one is linear and the other nearest with levels (8.15).
   const bool half =
@@ -210,7 +210,8 @@ std::array<Range, 4> texel_range(const Texture& texture, const Sampler& s, const
     for (size_t c = 0; c < 4; ++c) {
       const double more = off + (c < 3 ? rules.srgb_codes / 255 : 0);
       late[c] = {0, late[c].low - more, late[c].high + more};
-      if (c < 3) late[c] = {0, double(srgb_decoded(late[c].low)), double(srgb_decoded(late[c].high))};
+      if (c < 3)
+        late[c] = {0, double(srgb_decoded<long double>(late[c].low)), double(srgb_decoded<long double>(late[c].high))};
     }
     include(r, late);
   }

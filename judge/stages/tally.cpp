@@ -67,8 +67,7 @@ double PlaneView::stored_otherwise(int x, int y, int channel) const {
 
 double PlaneView::held(double value, int channel) const {
   if (!unorm()) return value;
-  return layout.largest_code(channel) *
-         (layout.srgb_channel(channel) ? double(srgb_encoded((long double)(value))) : value);
+  return layout.largest_code(channel) * (layout.srgb_channel(channel) ? srgb_encoded(value) : value);
 }
 
 std::optional<Deviation> PlaneView::deviation(int x, int y, int channel, double expected) const {
