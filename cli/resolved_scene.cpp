@@ -162,7 +162,7 @@ std::string map_json(const TextureSlot& slot) {
 std::string material_json(const Material& m) {
   JsonObject json, maps;
   const auto slots = maps_of(m);
-  for (size_t i = 0; i < kMaterialMaps; ++i) maps.put_raw(kMapNames[i], map_json(*slots[i]));
+  for (size_t i = 0; i < kMaterialMaps; ++i) maps.put_raw(map_name(i), map_json(*slots[i]));
   json.put("name", m.name).put_raw("base_color", json_of_vector(m.base_color));
   json.put_raw("specular_color", json_of_vector(m.specular_color)).put_raw("shininess", json_of_float(m.shininess));
   json.put_raw("emission", json_of_vector(m.emission)).put_raw("metallic", json_of_float(m.metallic));

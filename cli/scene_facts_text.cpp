@@ -112,7 +112,7 @@ std::string uses_text(const MapUses& uses) {
   std::string text;
   for (size_t m = 0; m < uses.size(); ++m)
     if (uses[m] != 0)
-      text += (text.empty() ? "" : ", ") + std::string(kMapNames[m]) + " of " + counted(uses[m], "material");
+      text += (text.empty() ? "" : ", ") + std::string(map_name(m)) + " of " + counted(uses[m], "material");
   return text.empty() ? "of no material" : text;
 }
 
@@ -141,7 +141,7 @@ std::string textures_json(const SceneFacts& facts, const Scene& scene) {
     const TexelFacts texel = texel_facts(texture.format);
     JsonObject maps;
     for (size_t m = 0; m < kMaterialMaps; ++m)
-      if (facts.textures[i][m] != 0) maps.put(kMapNames[m], facts.textures[i][m]);
+      if (facts.textures[i][m] != 0) maps.put(map_name(m), facts.textures[i][m]);
     const TextureLevel& level = texture.levels.front();
     all.add_raw(JsonObject()
                     .put("name", texture.name)

@@ -57,9 +57,14 @@ struct Material {
 };
 
 inline constexpr size_t kMaterialMaps = 6;
-inline constexpr std::string_view kMapNames[kMaterialMaps] = {"color",    "specular", "normal", "metallic_roughness",
-                                                              "emission", "occlusion"};
-/// The maps of a material, in the order of their names.
+/// The keys of a material's maps in scene files, and the names of the maps, which are the keys without `_map`.
+inline constexpr std::string_view kMaterialMapKeys[kMaterialMaps] = {
+    "color_map", "specular_map", "normal_map", "metallic_roughness_map", "emission_map", "occlusion_map"};
+constexpr std::string_view map_name(size_t map) {
+  const std::string_view key = kMaterialMapKeys[map];
+  return key.substr(0, key.size() - std::string_view("_map").size());
+}
+/// The maps of a material, in the order of their keys.
 template <class M>  // Material, const or not
 auto maps_of(M& m) {
   return std::array{&m.color_map,    &m.specular_map, &m.normal_map, &m.metallic_roughness_map,

@@ -13,9 +13,6 @@ namespace trueshade::oracle {
 
 namespace {
 
-constexpr std::string_view kMapNames[kMaterialMaps] = {
-    "color_map", "specular_map", "normal_map", "metallic_roughness_map", "emission_map", "occlusion_map"};
-
 /// A cause as it is tested.
 struct TestedCause {
   std::string_view name;  ///< empty: an implementation's choice, which the others are estimated beside
@@ -106,7 +103,7 @@ Tested tested_maps(const Scene& scene, const std::string& stage, TextureDeviatio
       const bool is_nearest = sampler.mip_filter == MipFilter::nearest || sampler.min_filter == Filter::nearest;
       const bool is_switch = TexelCause(cause) == TexelCause::level && is_nearest;
       t.causes.push_back(is_scale ? kScale : is_switch ? kSwitch : kTexelTests[cause]);
-      t.maps.push_back(kMapNames[map]);
+      t.maps.push_back(kMaterialMapKeys[map]);
     }
   return t;
 }

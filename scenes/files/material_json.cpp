@@ -11,10 +11,6 @@
 namespace trueshade {
 namespace {
 
-/// In the order of maps_of().
-constexpr std::string_view kMaterialMapKeys[kMaterialMaps] = {
-    "color_map", "specular_map", "normal_map", "metallic_roughness_map", "emission_map", "occlusion_map"};
-
 const json::ObjectKeys kTexture{"texture", kTextureKeys}, kPattern{"pattern", kPatternKeys}, kMap{"map", kMapKeys},
     kMaterial{"material", kMaterialKeys};
 
