@@ -25,8 +25,17 @@ namespace {
 
 constexpr double kMostStops = 40.0;
 constexpr glm::dvec3 kModelBackground(0.16, 0.16, 0.18);  // display codes over 255
-constexpr std::pair<std::string_view, double> kGreys[] = {{"black", 0.0}, {"grey", 0.5}, {"gray", 0.5}, {"white", 1.0}};
-const std::string kBackgroundForms = "#rrggbb, black, grey, white or none; or R,G,B[,A] in linear light";
+/// Display codes over 255: CSS Color 4's basic colours, but for grey, which is the middle.
+constexpr std::pair<std::string_view, glm::dvec3> kColors[] = {
+    {"black", {0, 0, 0}},        {"grey", {127.5, 127.5, 127.5}}, {"gray", {127.5, 127.5, 127.5}},
+    {"silver", {192, 192, 192}}, {"white", {255, 255, 255}},      {"maroon", {128, 0, 0}},
+    {"red", {255, 0, 0}},        {"olive", {128, 128, 0}},        {"yellow", {255, 255, 0}},
+    {"green", {0, 128, 0}},      {"lime", {0, 255, 0}},           {"teal", {0, 128, 128}},
+    {"aqua", {0, 255, 255}},     {"cyan", {0, 255, 255}},         {"navy", {0, 0, 128}},
+    {"blue", {0, 0, 255}},       {"purple", {128, 0, 128}},       {"fuchsia", {255, 0, 255}},
+    {"magenta", {255, 0, 255}},  {"orange", {255, 165, 0}}};
+const std::string kBackgroundForms =
+    "#rrggbb, #rgb, a basic name like black, grey, white, navy or teal, or none; or R,G,B[,A] in linear light";
 
 std::optional<double> number_in(std::string_view text) {
   double value = 0.0;
@@ -57,17 +66,19 @@ std::string text_of(const glm::vec4& color) {
 }
 
 std::optional<glm::dvec4> hex_color(const std::string& text) {
+  if (text[0] != '#' || (text.size() != 7 && text.size() != 4)) return std::nullopt;
+  std::string digits = text.substr(1);
+  if (digits.size() == 3) digits = {digits[0], digits[0], digits[1], digits[1], digits[2], digits[2]};
   uint32_t bits = 0;
-  if (text.size() != 7 || text[0] != '#') return std::nullopt;
-  const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), bits, 16);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), bits, 16);
+  if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
   return glm::dvec4(bits >> 16, bits >> 8 & 255, bits & 255, 255.0) / 255.0;
 }
 
 Background background_of(const std::string& text) {
   if (text == "none") return {glm::dvec4(0.0), false};
-  for (const auto& [name, grey] : kGreys)
-    if (text == name) return {glm::dvec4(grey, grey, grey, 1.0), true};
+  for (const auto& [name, codes] : kColors)
+    if (text == name) return {glm::dvec4(codes / 255.0, 1.0), true};
   if (const auto color = hex_color(text)) return {*color, true};
   std::vector<double> values;
   for (size_t begin = 0; begin <= text.size();) {
@@ -365,7 +376,8 @@ void add_looks(CommandTable& table, Looks& looks) {
       "Samples a pixel, for smooth edges: 1, 4, 9, 16, 25, 36, 49 or 64. Without it 4 of a model that is drawn into "
       "PNGs alone, and else 1");
   add_value(table, "--background", "COLOUR", looks.background,
-            "What is seen where nothing is drawn: #rrggbb, black, grey or white as a screen shows them; R,G,B[,A] in "
+            "What is seen where nothing is drawn: #rrggbb, #rgb or a basic name like white as a screen shows it; "
+            "R,G,B[,A] in "
             "linear light; or none, which is transparent");
   add_choice(table, "--faces", "CHOICE", looks.faces,
              "both: materials are lit from behind too, as if double-sided; keep: as the file has them", kFaceChoices);

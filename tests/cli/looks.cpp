@@ -313,6 +313,8 @@ TEST_CASE("A background is the colour that a PNG shows, whatever the target, the
       CHECK(corner_of(pictures.picture("sun.gltf", options)) == blue);
     }
   CHECK(corner_of(pictures.picture("scene.json", {"--background", "white"})) == Codes{255, 255, 255, 255});
+  CHECK(corner_of(pictures.picture("scene.json", {"--background", "teal"})) == Codes{0, 128, 128, 255});
+  CHECK(corner_of(pictures.picture("scene.json", {"--background", "#36c"})) == Codes{0x33, 0x66, 0xcc, 255});
   CHECK(corner_of(pictures.picture("scene.json", {"--background", "none"})) == Codes{0, 0, 0, 0});
   const Image floats =
       pictures.picture("scene.json", {"--background", "0.5,2,0.25,0.75", "--target", "rgba32f"}, "x.exr");
@@ -518,7 +520,7 @@ TEST_CASE("Looks that mean nothing are refused before anything is drawn") {
   const std::pair<std::vector<std::string>, const char*> refused[] = {
       {{"--samples", "3"}, "--samples: '3' is no number of samples that a square of them has (1, 4, 9,"},
       {{"--samples", "0"}, "--samples: '0'"},
-      {{"--background", "blue"}, "--background: 'blue' is no colour (#rrggbb, black"},
+      {{"--background", "bleu"}, "--background: 'bleu' is no colour (#rrggbb, #rgb, a basic name"},
       {{"--background", "#12345"}, "--background: '#12345'"},
       {{"--background", "#12345g"}, "--background: '#12345g'"},
       {{"--background", "1,2"}, "--background: '1,2'"},
