@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "cli/commands.h"
+#include "cli/json_text.h"
 #include "cli/terminal.h"
 #include "scenes/files/content/faults.h"
 #include "scenes/pipeline/presets.h"
@@ -164,6 +165,15 @@ std::string no_program_line(const Pipeline& pipeline) {
          pipeline.preset;
 }
 
+/// Where a scene stands at a time after all that its file's animations say.
+std::string stands_line(const Scene& scene) {
+  double last = 0.0;
+  for (const SceneAnimation& animation : scene.animations) last = std::max(last, animation.seconds);
+  if (!(last > 0.0) || scene.time <= last) return {};
+  return "The time is after the end of the file's animations, " + json_number(last) +
+         " s: What moves stands as at its last step";
+}
+
 }  // namespace
 
 Notes notes_of(const Scene& scene, const Pipeline& pipeline) {
@@ -178,7 +188,7 @@ Notes notes_of(const Scene& scene, const Pipeline& pipeline) {
        {boxes ? boxes_line(scene, pipeline.view) : std::string(), boxes ? eye_in_boxes_line(scene) : std::string(),
         pipeline.view == ImageView::uv ? uv_line(scene) : std::string(), lost_volumes_line(scene, pipeline),
         by_program ? cut_line(scene, pipeline) : std::string(), stand_in_line(scene, pipeline),
-        no_program_line(pipeline)})
+        no_program_line(pipeline), stands_line(scene)})
     if (!line.empty()) notes.lines.push_back(std::move(line));
   return notes;
 }

@@ -207,6 +207,18 @@ TEST_CASE("info lists cameras and animations with their numbers and names") {
   CHECK(folder.said({"info", "builtin:cornell"}).find("camera 0              perspective, ") != std::string::npos);
 }
 
+TEST_CASE("A time after a file's animations is told of, and draws their last step") {
+  const Folder folder;
+  const auto drawn = [&](const char* time) {
+    return folder.run({"render", "two.gltf", "--hash", "--size", "60x40", "--time", time});
+  };
+  const Outcome at_end = drawn("1"), after = drawn("7.5");
+  CHECK(after.out == at_end.out);
+  constexpr const char* kNote = "The time is after the end of the file's animations, 1 s: What moves stands";
+  CHECK(after.err.find(kNote) != std::string::npos);
+  CHECK(at_end.err.find(kNote) == std::string::npos);
+}
+
 TEST_CASE("a choice of camera and animation is drawn, with a cache too") {
   const Folder folder;
   const std::string first = folder.hash("two.gltf", {"--time", "1"});
