@@ -197,6 +197,10 @@ static uint64_t misplaced(const oracle::Capture& capture, const Scene& scene, co
 /// are computed from others and the pixel's place must be read again for it; turning them over would not do.
 static std::optional<oracle::Finding> found_upside_down(const ValidationOptions& options, const Scene& scene,
                                                         const Validation& v) {
+  constexpr uint64_t kLeastShare = 50;  // a capture that is upside down has more than one wrong pixel in so many
+  const oracle::StageVerdict& first = v.verdict.stages.front();
+  if (first.stage != "gbuffer" || first.count(oracle::PixelClass::violation) * kLeastShare < first.judged())
+    return std::nullopt;
   oracle::WorstPixel proof;
   const uint64_t as_read = misplaced(v.capture, scene, v, &proof);
   if (as_read == 0) return std::nullopt;
