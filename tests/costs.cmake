@@ -200,6 +200,7 @@ trueshade_slow(1
   "cli:one wrong value in a capture is found at its pixel"
   "cli:pictures that fool idiff and FLIP's tool are refused: NaN for 0, Inf for 0, a run of 50 NaN"
   "cli:Faults in a packed capture are convicted: normals a few codes off, and a picture that is not what they say"
+  "cli:A packed capture whose rows are read from the wrong end is told apart from wrong normals and positions"
   "cli:a capture is judged at its time: the lights have moved"
   "farm: bench --ranks measures one, two and all ranks of mpirun, and leaves nothing behind"
   "cli:a picture that no known rounding makes is a failure, a remark with --lenient, and its evidence is one line"
