@@ -93,11 +93,13 @@ void fit_capture(const ValidationOptions& options, const CaptureFiles& files, co
         "a file does not tell its driver's subpixel bits: held to OpenGL's least, 4 (--subpixel-bits tells)");
 }
 
-void leave_out(const ValidationOptions& options, const Scene& scene, Validation& v) {
+/// The pixels of a capture that are not judged.
+PixelMask left_out_of(const oracle::Capture& capture, const ValidationOptions& options, const Scene& scene,
+                      const Validation& v) {
+  if (!options.mask.any()) return {};
   std::optional<PictureFile> mask;
   if (!options.mask.file.empty()) mask = read_any_picture(options.mask.file, options.limits.expansion);
-  v.capture.mask = judged_mask(options.mask, mask ? &*mask : nullptr, scene, v.pipeline, v.capture);
-  v.left_out_by = options.mask.text();
+  return judged_mask(options.mask, mask ? &*mask : nullptr, scene, v.pipeline, capture);
 }
 
 /// The file of a capture's picture, as far as its name tells: a file of planes may hold one.
@@ -181,12 +183,15 @@ static Looks looks_of_capture(const CaptureFiles& files, std::vector<std::string
   return {};
 }
 
+static bool tells_surface(std::string_view plane) { return plane == "depth" || plane == "id.object"; }
+
 /// Pixels whose surface, as far as depth and id.object tell, is in no legal set; `proof`: the worst of them.
 static uint64_t misplaced(const oracle::Capture& capture, const Scene& scene, const Validation& v,
                           oracle::WorstPixel* proof = nullptr) {
-  oracle::Capture surfaces = capture;
-  surfaces.color = {};
-  std::erase_if(surfaces.planes, [](const NamedImage& p) { return p.name != "depth" && p.name != "id.object"; });
+  oracle::Capture surfaces;
+  surfaces.mask = capture.mask, surfaces.decoded = capture.decoded;
+  for (const NamedImage& plane : capture.planes)
+    if (tells_surface(plane.name)) surfaces.planes.push_back(plane);
   if (surfaces.planes.empty()) return 0;
   const oracle::Verdict verdict = oracle::validate_capture(scene, v.pipeline, surfaces, {v.profile});
   if (proof != nullptr && !verdict.stages[0].worst.empty()) *proof = verdict.stages[0].worst[0];
@@ -204,26 +209,27 @@ static std::optional<oracle::Finding> found_upside_down(const ValidationOptions&
   oracle::WorstPixel proof;
   const uint64_t as_read = misplaced(v.capture, scene, v, &proof);
   if (as_read == 0) return std::nullopt;
-  bool from_bottom = false;
   oracle::Capture turned;
   try {
     CaptureFiles files = capture_files_of(options.capture, options.limits);
-    for (PlaneChannelList& plane : files.planes) from_bottom = plane.mapped.bottom_up = !plane.mapped.bottom_up;
+    std::erase_if(files.planes, [](const PlaneChannelList& plane) { return !tells_surface(plane.mapped.plane); });
+    for (PlaneChannelList& plane : files.planes) plane.mapped.bottom_up = !plane.mapped.bottom_up;
     turned = captured_planes(files, scene, v.pipeline).capture;
     store_as(v.pipeline, turned);
+    turned.mask = left_out_of(turned, options, scene, v);
   } catch (const Error&) {
     return std::nullopt;  // distances, say, that no surface has there; or files that can be read but once
   }
   const uint64_t otherwise = misplaced(turned, scene, v);
   constexpr double kMostLeft = 0.1;
   if (double(otherwise) > kMostLeft * double(as_read)) return std::nullopt;
-  const std::string rows = from_bottom ? "rows=bottom_up" : "rows=top_down";
+  const bool is_turned = options.capture.map && capture_map_from_option(*options.capture.map).bottom_up;
+  const std::string rows = is_turned ? "rows=top_down" : "rows=bottom_up";
   oracle::Finding finding;
   finding.name = rows;
   finding.plane = "capture";
-  finding.text = std::string("the rows of its files run from the ") +
-                 (from_bottom ? "bottom, as glReadPixels gives them" : "top") + ", so read it with " + rows +
-                 " in --map";
+  finding.text = "the rows of its files run the other way" +
+                 std::string(is_turned ? "" : ", as glReadPixels gives them") + ": read it with " + rows + " in --map";
   finding.changed = as_read;
   finding.explained = 1 - double(otherwise) / double(as_read);
   finding.proof = {proof.x, proof.y, proof.plane, proof.given, proof.nominal, proof.given};
@@ -268,7 +274,8 @@ bool judge_opengl(const ValidationOptions& options) {
       fit_capture(options, *files, scene, v);
   });
   files.reset();
-  if (options.mask.any()) leave_out(options, scene, v);
+  v.capture.mask = left_out_of(v.capture, options, scene, v);
+  v.left_out_by = options.mask.any() ? options.mask.text() : "";
   for (const std::string& path : options.saved) {
     activity->now("writing " + printable(path, Lines::one));
     save(v.capture, path);

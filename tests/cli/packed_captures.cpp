@@ -200,6 +200,27 @@ TEST_CASE("A packed capture whose rows are read from the wrong end is told apart
   REQUIRE(turned.size() == 1);
   CHECK(turned[0]["name"] == "rows=top_down");
 
+  // Words of planes that are turned twice: what the map says of all of them is wrong.
+  const auto twice =
+      diagnosis({"--gbuffer", "c.exr", "--map", "depth=c.depth.Z:bottom_up,id.object=c.id.object:bottom_up"});
+  REQUIRE(twice.size() == 1);
+  CHECK(twice[0]["name"] == "rows=bottom_up");
+
+  // What lies under a mask has no say: here objects that stand the right way up as they are read.
+  EnginePlane hidden = bottom_up(c.object), mask = c.depth;
+  for (int y = 0; y < hidden.height; ++y)
+    for (int x = 0; x < hidden.width; ++x) {
+      const bool is_hidden = x < hidden.width / 3;
+      mask.at(x, y, 0) = is_hidden ? 0 : 1;
+      if (is_hidden) hidden.at(x, y, 0) = c.object.at(x, y, 0);
+    }
+  write_npy(c.path("hidden.npy"), hidden, "<f4");
+  write_npy(c.path("mask.npy"), mask, "|u1");
+  const auto masked =
+      diagnosis({"--map", "depth=z.npy.R,id.object=hidden.npy.R", "--mask", "mask.npy", "--allow-mask"});
+  REQUIRE(masked.size() == 1);
+  CHECK(masked[0]["name"] == "rows=bottom_up");
+
   // Surfaces that are elsewhere, but not upside down.
   EnginePlane moved = c.depth;
   for (int y = 0; y < moved.height; ++y)
