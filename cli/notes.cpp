@@ -11,6 +11,7 @@
 #include "cli/terminal.h"
 #include "scenes/files/content/faults.h"
 #include "scenes/pipeline/presets.h"
+#include "scenes/timeline_end.h"
 #include "shading/output/view_image.h"
 #include "shading/program/cut_lights.h"
 
@@ -165,13 +166,11 @@ std::string no_program_line(const Pipeline& pipeline) {
          pipeline.preset;
 }
 
-/// Where a scene stands at a time after all that its file's animations say.
+/// Where the animation of a file that is played has come to its end before the time.
 std::string stands_line(const Scene& scene) {
-  double last = 0.0;
-  for (const SceneAnimation& animation : scene.animations) last = std::max(last, animation.seconds);
-  if (!(last > 0.0) || scene.time <= last) return {};
-  return "The time is after the end of the file's animations, " + json_number(last) +
-         " s: What moves stands as at its last step";
+  const TimelineEnd end = end_of(scene.timeline);
+  if (scene.animations.empty() || end.is_endless || !(end.last > 0.0) || scene.time <= end.last) return {};
+  return "The time is after the end of what moves, " + json_number(end.last) + " s: All stands as at its last step";
 }
 
 }  // namespace

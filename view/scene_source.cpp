@@ -6,6 +6,7 @@
 #include "core/file_ending.h"
 #include "scenes/files/content/scene_files.h"
 #include "scenes/scene_defaults.h"
+#include "scenes/timeline_end.h"
 
 namespace trueshade::viewer {
 namespace {
@@ -30,27 +31,7 @@ void read_reference(const SceneSource& source, SceneFacts& facts) {
     facts.camera_text = json::text_of(camera->value());
 }
 
-void see(const std::optional<Track>& track, double& last) {
-  if (track) last = std::max(last, track->repeats ? track->end : track->times.back());
-}
-
 }  // namespace
-
-double last_time_of(const Timeline& timeline) {
-  double last = 0.0;
-  for (const LightMotion& motion : timeline.lights) see(motion.track, last);
-  for (const CameraMotion& motion : timeline.camera) see(motion.track, last);
-  for (const MaterialMotion& motion : timeline.materials) see(motion.color, last);
-  const auto see_object = [&last](const ObjectMotion& motion) {
-    see(motion.position, last), see(motion.rotation, last), see(motion.scale, last);
-  };
-  for (const ObjectMotion& motion : timeline.motions) see_object(motion);
-  for (const NodeMotion& node : timeline.node_motions) see_object(node.motion);
-  for (const PosedMesh& posed : timeline.posed)
-    if (posed.motion && !posed.motion->times.empty()) last = std::max(last, posed.motion->times.back());
-  for (const Orbit& orbit : timeline.orbits) last = std::max(last, double(orbit.period));
-  return std::min(last, kLongestTime);
-}
 
 OpenedScene opened_scene(const SceneSource& source, std::vector<std::string>& files) {
   OpenedScene opened;
@@ -72,7 +53,7 @@ OpenedScene opened_scene(const SceneSource& source, std::vector<std::string>& fi
   facts.lights = scene.lights;
   facts.clear = scene.clear;
   facts.fps = scene.timeline.fps;
-  facts.last_time = last_time_of(scene.timeline);
+  facts.last_time = std::min(end_of(scene.timeline).last, kLongestTime);
   facts.moves = !scene.timeline.empty() && facts.last_time > 0.0;
   const Bounds bounds = bounds_of(scene);
   facts.reach = bounds.radius > 0.0 ? bounds.radius : 1.0;

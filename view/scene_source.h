@@ -46,10 +46,7 @@ struct SceneSource {
 /// Loads a scene with all that is known of it. `files` gets the paths that were read, also where it throws.
 OpenedScene opened_scene(const SceneSource& source, std::vector<std::string>& files);
 
-inline constexpr double kLongestTime = 60.0;  ///< seconds that play before the time begins anew
-
-/// When all that moves in a scene has been seen once: the last step of any track, the longest period of any orbit, and
-/// at most a minute. 0 where nothing moves.
-double last_time_of(const Timeline& timeline);
+/// Seconds that play before the time begins anew, where all that moves has not been seen once before.
+inline constexpr double kLongestTime = 60.0;
 
 }  // namespace trueshade::viewer

@@ -214,7 +214,7 @@ TEST_CASE("A time after a file's animations is told of, and draws their last ste
   };
   const Outcome at_end = drawn("1"), after = drawn("7.5");
   CHECK(after.out == at_end.out);
-  constexpr const char* kNote = "The time is after the end of the file's animations, 1 s: What moves stands";
+  constexpr const char* kNote = "The time is after the end of what moves, 1 s: All stands as at its last step";
   CHECK(after.err.find(kNote) != std::string::npos);
   CHECK(at_end.err.find(kNote) == std::string::npos);
 }
