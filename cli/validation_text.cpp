@@ -129,7 +129,7 @@ std::string share_text(const oracle::Finding& f) {
 
 std::string finding_line(const oracle::Finding& f) {
   return f.name + " (" + f.plane + "): " + f.text + "; " + share_text(f) +
-         (f.left > 0.0005 ? ", leaves " + real(100 * f.left, "%.1f") + " % far off" : "") +
+         (f.left > 0.0005 ? ", leaves " + real(100 * std::min(f.left, 1.0), "%.1f") + " % far off" : "") +
          (f.contradicted > 0.0005 ? ", and contradicts " + real(100 * f.contradicted, "%.1f") + " % of the others"
                                   : "");
 }

@@ -63,13 +63,15 @@ std::vector<double> solved(std::vector<double> a, std::vector<double> b) {
   return b;
 }
 
-/// As solved(), of changes above -1: no light's term turns round. What would be below is held there, and the others are
-/// solved for anew.
-std::vector<double> solved_above_no_light(const std::vector<double>& a, const std::vector<double>& b) {
+/// As solved(), of changes of at least -1: no light's term turns round. Murty's principal pivoting: of the changes that
+/// are below, and of those held at -1 that would grow, the last one changes its side, until there is none.
+std::vector<double> solved_with_light(const std::vector<double>& a, const std::vector<double>& b) {
   constexpr double kNoLight = -1;
+  constexpr int kMostPivots = 1000;
   const size_t n = b.size();
   std::vector<uint8_t> held(n);
-  for (;;) {
+  std::vector<double> x;
+  for (int pivot = 0; pivot < kMostPivots; ++pivot) {
     std::vector<double> left = a, right = b;
     for (size_t i = 0; i < n; ++i)
       for (size_t j = 0; j < n; ++j) {
@@ -78,15 +80,20 @@ std::vector<double> solved_above_no_light(const std::vector<double>& a, const st
       }
     for (size_t i = 0; i < n; ++i)
       if (held[i] != 0) right[i] = a[i * n + i] * kNoLight;
-    std::vector<double> x = solved(std::move(left), std::move(right));
-    bool is_new = false;
+    x = solved(std::move(left), std::move(right));
     for (size_t i = 0; i < n; ++i)
-      if (held[i] != 0)
-        x[i] = kNoLight;
-      else if (x[i] < kNoLight)
-        held[i] = 1, is_new = true;
-    if (!is_new) return x;
+      if (held[i] != 0) x[i] = kNoLight;
+    size_t turned = n;
+    for (size_t i = 0; i < n; ++i) {
+      double grows = b[i];
+      for (size_t j = 0; j < n; ++j) grows -= a[i * n + j] * x[j];
+      if (held[i] != 0 ? grows > 0 : x[i] < kNoLight) turned = i;
+    }
+    if (turned == n) return x;
+    held[turned] = held[turned] == 0 ? 1 : 0;
   }
+  for (double& change : x) change = std::max(change, kNoLight);
+  return x;
 }
 
 class QuotientFit {
@@ -105,7 +112,7 @@ class QuotientFit {
     }
     if (!(out->left <= kLeastExplained)) return std::nullopt;
     if (out->text.empty()) describe(*out);
-    return out;
+    return is_right(*out) ? std::nullopt : out;
   }
 
  private:
@@ -163,7 +170,15 @@ class QuotientFit {
     }
     for (size_t i = 0; i < n; ++i)
       for (size_t j = 0; j < i; ++j) a[j * n + i] = a[i * n + j];
-    return solved_above_no_light(a, b);
+    return solved_with_light(a, b);
+  }
+
+  /// Whether it says that the light is as it should be, so that what is wrong is no light.
+  static bool is_right(const LightQuotient& q) {
+    constexpr double kOff = 0.005;
+    return q.against != "light" && std::all_of(q.curve.begin(), q.curve.end(), [](const LightQuotient::Step& step) {
+             return std::fabs(step.factor - 1) < kOff;
+           });
   }
 
   void describe(LightQuotient& q) const {
