@@ -132,11 +132,13 @@ bool change_tangents(Scene& s, const Change& change) {
   }
   return any;
 }
-bool no_tangents(Scene& s, Pipeline&, double) {
-  return change_tangents(s, [](Mesh& mesh) {
+/// Triangles' own frames have green along v, which runs downward in glTF's pictures, where tangents have it upward.
+bool no_tangents(Scene& s, Pipeline& p, double) {
+  const bool any = change_tangents(s, [](Mesh& mesh) {
     mesh.tangent = {};
     return true;
   });
+  return any && turn_channel<1>(s, p, 0);
 }
 bool no_tangent_signs(Scene& s, Pipeline&, double) {
   return change_tangents(s, [](Mesh& mesh) {

@@ -260,6 +260,7 @@ constexpr PlaneFault kFaults[] = {
     {"position-flip-y", "the positions are upside down", Plane::position, nullptr, nullptr, flip_rows},
     {"normal-flip-y", "the normals are upside down", Plane::normal, nullptr, nullptr, flip_rows},
     {"albedo-flip-y", "the albedo is upside down", Plane::albedo, nullptr, nullptr, flip_rows},
+    {"object-flip-y", "the objects' numbers are upside down", Plane::object, nullptr, nullptr, flip_rows},
     {"depth-flip-x", "the depths are mirrored", Plane::depth, nullptr, nullptr, flip_columns},
     {"position-flip-x", "the positions are mirrored", Plane::position, nullptr, nullptr, flip_columns},
     {"normal-flip-x", "the normals are mirrored", Plane::normal, nullptr, nullptr, flip_columns},

@@ -152,6 +152,8 @@ void add_maps(std::vector<Plant>& all) {
       "normal", "tangents not read", {"tangents-missing"},
       [](Scene& s, Pipeline&, int) {
         for (Mesh& mesh : s.meshes) mesh.tangent = {};
+        for (TextureLevel& level : s.textures.back().levels)  // green stays where it was
+          for (size_t i = 1; i < level.bytes.size(); i += 4) level.bytes[i] = uint8_t(255 - level.bytes[i]);
         return true;
       },
       1)
