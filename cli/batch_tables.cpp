@@ -1,4 +1,6 @@
 // The table of the command that runs other commands: batch.
+#include <filesystem>
+
 #include "cli/command_tables.h"
 #include "cli/option_values.h"
 #include "core/file_ending.h"
@@ -40,10 +42,27 @@ CommandTable batch_table(BatchOptions& options) {
 
 BatchOptions finished(BatchOptions options) {
   if (options.file.empty()) throw usage("JOBS", "'' is no name of a file", "name one");
+  if (options.json_file && *options.json_file != "-" && !has_ending(*options.json_file, ".json"))
+    throw usage("--json", "'" + *options.json_file + "' does not end like JSON",
+                "end the name in .json, or - prints it");
+  if (options.state && (options.state->empty() || is_picture_name(*options.state)))
+    throw usage("--state", "'" + *options.state + "' is no name of a state", "end the name in .state, say");
   if (options.junit && !has_ending(*options.junit, ".xml"))
     throw usage("--junit", "'" + *options.junit + "' does not end like XML", "end the name in .xml");
   if (options.report && !has_ending(*options.report, ".html"))
     throw usage("--report", "'" + *options.report + "' does not end like a page", "end the name in .html");
+  std::vector<std::string> files{options.file};
+  for (const auto& [option, file] : {std::pair{"--state", options.state},
+                                     {"--json", options.json_file},
+                                     {"--junit", options.junit},
+                                     {"--report", options.report}}) {
+    if (!file || *file == "-") continue;
+    files.push_back(*file);
+    check_named_once(option, files);
+    std::error_code unknown;
+    if (std::filesystem::equivalent(*file, options.file, unknown))
+      throw usage(option, "'" + *file + "' is the file of jobs", "give it another name");
+  }
   return options;
 }
 

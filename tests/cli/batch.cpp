@@ -279,6 +279,23 @@ TEST_CASE("A file of jobs that is wrong is refused in one line that names the pl
   refused(list(circle), "jobs wait for each other: a after b after c after a");
 }
 
+TEST_CASE("No result of a batch takes the place of its jobs, of another result or of a picture") {
+  const Batch batch;
+  batch.write({job("a", {"info", "builtin:red"})});
+  const std::string jobs = contents(batch.folder.path("jobs.json"));
+  std::filesystem::create_symlink("jobs.json", batch.folder.path("link.json"));
+  for (const auto& [options, about] : std::vector<std::pair<Arguments, const char*>>{
+           {{"--state", "jobs.json"}, "--state: "},
+           {{"--json", "./jobs.json"}, "--json: "},
+           {{"--json", "link.json"}, "--json: 'link.json' is the file of jobs"},
+           {{"--json", "r.json", "--state", "r.json"}, "--json: 'r.json' is named twice"},
+           {{"--json", "a.png"}, "--json: 'a.png' does not end like JSON"},
+           {{"--state", "a.png"}, "--state: "},
+           {{"--json", ""}, "--json: "}})
+    check_refused(run_command(with({"batch", "jobs.json"}, options), batch.folder.path("")), 2, about);
+  CHECK(contents(batch.folder.path("jobs.json")) == jobs);
+}
+
 TEST_CASE("The journal of a batch is not opened through a link") {
   const Batch batch;
   batch.write({job("a", {"info", "builtin:red"})});
