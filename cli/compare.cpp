@@ -73,7 +73,7 @@ StandardOutput answers(const CompareOptions& options) {
 }
 
 /// One picture as a folder's row, for JUnit.
-FolderComparison as_row(const CompareOptions& options, const ComparedPictures& pictures, bool accepted) {
+FolderComparison as_row(const CompareOptions& options, const ComparedPictures& pictures) {
   PictureRow row;
   row.name = options.test;
   row.state = passes(pictures)                                              ? RowState::same
@@ -81,7 +81,7 @@ FolderComparison as_row(const CompareOptions& options, const ComparedPictures& p
                                                                             : RowState::different;
   row.reason = verdict_line(pictures);
   if (row.state != RowState::same) row.details = comparison_text(pictures);
-  row.is_accepted = accepted;
+  row.is_accepted = pictures.is_accepted;
   return {options.reference, options.test, {row}, 0};
 }
 
@@ -112,8 +112,8 @@ int compare_two_pictures(const CompareOptions& options) {
     else if (why_no_differences(pictures, path).empty())
       write_differences(pictures, path);
   }
-  const bool is_accepted = options.accept && !passes(pictures) && accepted(options, pictures.test);
-  if (options.junit) write_text(*options.junit, junit_xml(as_row(options, pictures, is_accepted)));
+  pictures.is_accepted = options.accept && !passes(pictures) && accepted(options, pictures.test);
+  if (options.junit) write_text(*options.junit, junit_xml(as_row(options, pictures)));
   print(options.json ? comparison_json(pictures) : shown_report(comparison_text(pictures)));
   for (const std::string& path : options.outputs) {
     const std::string why = is_page(path) ? "" : why_no_differences(pictures, path);
@@ -123,7 +123,7 @@ int compare_two_pictures(const CompareOptions& options) {
       say_notes({path + " is not written: " + why});
   }
   if (options.junit) say_written(*options.junit, "JUnit", answers(options));
-  return passes(pictures) || is_accepted ? 0 : 1;
+  return passes(pictures) || pictures.is_accepted ? 0 : 1;
 }
 
 int compare_two_folders(CompareOptions options) {

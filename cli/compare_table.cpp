@@ -251,6 +251,8 @@ CompareOptions finished(CompareOptions options) {
   if (options.junit && !has_ending(*options.junit, ".xml"))
     throw usage("--junit", "'" + *options.junit + "' does not end like XML", "end the name in .xml");
   for (const std::string& path : options.outputs)
+    if (path.empty()) throw usage("-o", "'' is no name of a file or a folder", "name one");
+  for (const std::string& path : options.outputs)
     options.rules.wants_flip = options.rules.wants_flip || has_ending(path, ".png");
   check_named_once("-o", options.outputs);
   return options;

@@ -19,8 +19,9 @@ struct ComparedPictures {
   PictureFile reference, test;
   compare::Comparison comparison;
   PixelMask mask;
-  std::string left_out_by;  ///< MaskRules::text()
-  JudgedPicture judged;     ///< of pictures that fit together, are finite and are not the same
+  std::string left_out_by;   ///< MaskRules::text()
+  JudgedPicture judged;      ///< of pictures that fit together, are finite and are not the same
+  bool is_accepted = false;  ///< the test has become the reference since
 
   ComparedPictures() = default;
   ComparedPictures(ComparedPictures&&) = default;

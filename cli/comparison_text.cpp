@@ -279,6 +279,7 @@ std::string comparison_json(const ComparedPictures& pictures) {
   for (const compare::WorstWindow& worst : d.windows) windows.add_raw(window_json(worst, c));
   JsonObject json;
   json.put("outcome", word_of(c.outcome)).put("passes", passes(pictures)).put("verdict", verdict_line(pictures));
+  json.put("accepted", pictures.is_accepted);
   json.put("reference", pictures.reference.path).put("test", pictures.test.path).put("colors", c.colors);
   json.put_raw("failures", strings_json(c.failures)).put_raw("notes", strings_json(c.notes));
   json.put_raw("criteria", criteria.text()).put("pixels", d.pixels).put("unequal_pixels", d.unequal_pixels);

@@ -179,8 +179,9 @@ std::vector<int> window_sides(const CompareRules& rules) {
   return sides;
 }
 
-/// Floats of 64 bits are read as 32; what that loses is told, and is a failure where equality is asked for.
-void add_rounded(const PictureFile& picture, const char* which, const CompareRules& rules, Comparison& c) {
+/// Floats of 64 bits are read as 32; what that loses is told, and is a failure where equality is asked for. Returns
+/// whether something was lost.
+bool add_rounded(const PictureFile& picture, const char* which, const CompareRules& rules, Comparison& c) {
   for (const ChannelFile& part : picture.parts)
     for (const Channel& channel : part.channels)
       if (channel.is_rounded) {
@@ -190,8 +191,9 @@ void add_rounded(const PictureFile& picture, const char* which, const CompareRul
           c.failures.push_back(rounded + ", so that equality cannot be told: convert them, or give a criterion");
         else
           c.notes.push_back(rounded + "; they were rounded to 32 before they were compared");
-        return;
+        return true;
       }
+  return false;
 }
 
 float light_of(double value, bool decode) {
@@ -248,14 +250,14 @@ Comparison compared(const PictureFile& reference, const PictureFile& test, const
                                                           [](const Criterion& row) { return is_flip(row.measure); });
   if (wants_flip) measure_flip(reference, test, rules, c);
   c.failures = c.pairing.mismatches;
-  add_rounded(reference, "reference", rules, c);
-  add_rounded(test, "test", rules, c);
+  const bool rounds_reference = add_rounded(reference, "reference", rules, c);
+  const bool is_rounded = add_rounded(test, "test", rules, c) || rounds_reference;
   check_finite(rules, c);
   judge(rules, c);
-  c.outcome = !c.pairing.mismatches.empty() ? Outcome::mismatched
-              : !c.failures.empty()         ? Outcome::different
-              : d.unequal_pixels > 0        ? Outcome::within
-                                            : Outcome::same;
+  c.outcome = !c.pairing.mismatches.empty()        ? Outcome::mismatched
+              : !c.failures.empty()                ? Outcome::different
+              : d.unequal_pixels > 0 || is_rounded ? Outcome::within
+                                                   : Outcome::same;
   return c;
 }
 
