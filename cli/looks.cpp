@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kMostStops = 40.0;
 constexpr glm::dvec3 kModelBackground(0.16, 0.16, 0.18);  // display codes over 255
-/// Display codes over 255: CSS Color 4's basic colours, but for grey, which is the middle.
+/// As a screen shows them, of 255: CSS's basic colours, with grey in the middle, and some that people try beside them.
 constexpr std::pair<std::string_view, glm::dvec3> kColors[] = {
     {"black", {0, 0, 0}},        {"grey", {127.5, 127.5, 127.5}}, {"gray", {127.5, 127.5, 127.5}},
     {"silver", {192, 192, 192}}, {"white", {255, 255, 255}},      {"maroon", {128, 0, 0}},
@@ -76,9 +76,11 @@ std::optional<glm::dvec4> hex_color(const std::string& text) {
 }
 
 Background background_of(const std::string& text) {
-  if (text == "none") return {glm::dvec4(0.0), false};
+  if (text == "none" || text == "transparent") return {glm::dvec4(0.0), false};
+  std::string lower = text;
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
   for (const auto& [name, codes] : kColors)
-    if (text == name) return {glm::dvec4(codes / 255.0, 1.0), true};
+    if (lower == name) return {glm::dvec4(codes / 255.0, 1.0), true};
   if (const auto color = hex_color(text)) return {*color, true};
   std::vector<double> values;
   for (size_t begin = 0; begin <= text.size();) {
@@ -220,14 +222,17 @@ void remove_lights(Scene& scene) {
   scene.timeline.node_lights.clear();
 }
 
+void scale_lights(std::span<Light> lights, double factor) {
+  for (Light& light : lights) light.color = glm::vec3(glm::dvec3(light.color) * factor);
+}
+
 /// Lights of ours behind those of the file, `factor` times as bright. The background stays.
 void append_lights_of_ours(Scene& scene, double factor) {
   const glm::vec4 clear = scene.clear;
   const size_t before = scene.lights.size();
   add_lights_of_ours(scene);
   scene.clear = clear;
-  for (Light& light : std::span(scene.lights).subspan(before))
-    light.color = glm::vec3(glm::dvec3(light.color) * factor);
+  scale_lights(std::span(scene.lights).subspan(before), factor);
 }
 
 void append_soft_light(Scene& scene, double factor) {
@@ -262,7 +267,13 @@ LightChoice light_choice_of(const std::string& text) {
 /// Sets the text to the choice with its factor.
 void change_lights(std::string& text, LightMeter& meter, Scene& scene) {
   const auto [choice, given] = light_choice_of(text);
-  if (has_ours_alone(scene) && choice != "none") return;
+  const bool is_ours = has_ours_alone(scene);
+  if (is_ours && choice != "none" && !given) return;
+  if (is_ours && (choice == "add" || choice == "soft")) {  // the last of ours is the soft one
+    const FpScope fp;
+    return choice == "add" ? scale_lights(scene.lights, *given)
+                           : scale_lights(std::span(&scene.lights.back(), 1), 1.0 + *given);
+  }
   if (choice == "none" || choice == "three") remove_lights(scene);
   if (choice != "keep" && choice != "none") meter.check_stored();
   if (choice == "three") append_lights_of_ours(scene, 1.0);

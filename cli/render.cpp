@@ -63,7 +63,7 @@ RenderOptions for_eyes(RenderOptions options, const Scene& scene) {
   const bool holds_values =
       !options.aovs.empty() || std::any_of(options.outputs.begin(), options.outputs.end(),
                                            [](const std::string& path) { return has_ending(path, ".exr"); });
-  if (holds_values || options.cube_map || !options.execution.region.whole()) return options;
+  if (holds_values || options.cube_map) return options;
   options.looks = with_smooth_edges(options, scene).looks;
   return options;
 }
@@ -76,12 +76,14 @@ SceneToRender::SceneToRender(const RenderOptions& given, const Execution& execut
       options(for_eyes(given, scene)),
       pipeline(pipeline_of(options, scene)) {
   const auto is_picture = [](const std::string& path) { return has_ending(path, ".png") || has_ending(path, ".html"); };
-  const bool is_whole = !options.cube_map && options.execution.region.whole();
-  if (is_whole && !options.looks.samples && with_smooth_edges(given, scene).looks.samples &&
+  if (!options.cube_map && !options.looks.samples && is_shown_for_looks(given, scene) &&
+      pipeline.view == ImageView::lit && !is_streamed(options, pipeline) &&
       std::any_of(given.outputs.begin(), given.outputs.end(), is_picture))
-    scene.notes.push_back(
-        "There is one sample a pixel, because an EXR file or planes are written too (--samples 4 "
-        "averages them as well)");
+    scene.notes.push_back(with_smooth_edges(given, scene).looks.samples
+                              ? "There is one sample a pixel, because an EXR file or planes are written too (--samples "
+                                "4 averages them as well)"
+                              : "There is one sample a pixel, because the picture is large (--samples 4 smooths its "
+                                "edges)");
   check_cube_map(options, pipeline);
   validate_region(pipeline, options.execution.region);
   if (options.resume && (!is_streamed(options, pipeline) || options.outputs.empty() || options.numbered()))
