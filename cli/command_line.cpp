@@ -45,14 +45,14 @@ class CommandReader {
     return std::nullopt;
   }
 
-  /// Gives every row its values. Error(usage) for one argument too many, and for what is missing.
+  /// Gives every row its values. Error(usage) for one argument too many, for what is missing, and of the rows.
   void give() {
     give_arguments();
-    for (const GivenRow& given : given_) given.row->take(given.values);
     for (const OptionRow& row : table_.rows)
       if (row.is_required && !is_given(row))
         throw usage(row.spellings().back(), "it is required",
                     row.is_argument() ? "`" + help_command() + "` says what it is" : "add it with a value");
+    for (const GivenRow& given : given_) given.row->take(given.values);
   }
 
  private:

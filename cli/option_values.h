@@ -15,7 +15,7 @@ namespace trueshade {
 int integer_in(const std::string& option, const std::string& text, int least, int most);
 int tile_from_text(const std::string& option, const std::string& text);
 Size size_from_text(const std::string& text, int most);
-void check_size(int64_t width, int64_t height, int most);  ///< Error(limit): over `most` pixels a side
+void check_size(int64_t width, int64_t height, int most);            ///< Error(limit): over `most` pixels a side
 std::chrono::seconds lost_after_from_text(const std::string& text);  ///< of --lost-after
 PictureRegion region_from_text(const std::string& text);             ///< of `X,Y,WxH`
 double time_from_text(const std::string& text);

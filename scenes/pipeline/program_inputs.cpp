@@ -213,7 +213,8 @@ void check_values(const LightProgram& program, std::span<const std::string> inpu
   check_given(program, inputs, declared);
   for (const std::string& input : inputs)
     if (input.starts_with(kParameterBlock) && !parameter_value(input, program))
-      throw Error(ErrorKind::usage, program.file, "nothing gives " + input, "--light-parameter NAME=VALUE");
+      throw Error(ErrorKind::usage, program.file, "nothing gives " + input,
+                  "--light-parameter " + input.substr(std::string_view(kParameterBlock).size()) + "=VALUE");
 }
 
 void check_camera(const Camera& camera, const std::string& file, std::span<const std::string> inputs) {
