@@ -44,6 +44,9 @@ void depth_linear(const Context& c, PlaneValues& v, double) {
   const auto near = double(c.scene.camera.near), far = double(c.scene.camera.far);
   if (v.covered) v.depth = (view_distance(c, v) - near) / (far - near);
 }
+void depth_cleared_to_zero(const Context&, PlaneValues& v, double) {
+  if (!v.covered) v.depth = 0;
+}
 void depth_of_ray(const Context& c, PlaneValues& v, double) {
   const V3 d = from_eye(c, v.position);
   if (v.covered) v.depth = std::sqrt(inner3(d, d));
@@ -288,6 +291,7 @@ constexpr PlaneFault kFaults[] = {
     {"depth-over-far", "the depths are distances along the view's axis over far", Plane::depth, depth_over_far},
     {"depth-linear", "the depths are linear from near to far", Plane::depth, depth_linear},
     {"depth-ray", "the depths are distances from the eye", Plane::depth, depth_of_ray},
+    {"depth-cleared-to-zero", "the depth is 0 where nothing is drawn", Plane::depth, depth_cleared_to_zero},
     {"depth-bias", "%s is added to the depths", Plane::depth, depth_offset, nullptr, nullptr,
      Fault::Search::depth_offset},
     {"depth-bits", "the depths have %s bits", Plane::depth, depth_rounded, nullptr, nullptr, kOneOf, kDepthBits},

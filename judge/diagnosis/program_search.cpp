@@ -66,8 +66,12 @@ class ProgramSearch {
       best = std::max(best, match.score());
       if (match.explained >= kLeastExplained) found.emplace_back(match, std::move(edit));
     }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const auto& a, const auto& b) { return a.first.score() > b.first.score(); });
+    // Of what explains as much a normalize() that was left out comes first: it is forgotten more often than the rest.
+    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
+      const auto forgets_length = [](const ProgramEdit& edit) { return edit.change == ProgramChange::number; };
+      if (a.first.score() != b.first.score()) return a.first.score() > b.first.score();
+      return forgets_length(a.second) && !forgets_length(b.second);
+    });
     std::vector<Finding> out;
     for (const auto& [match, edit] : found) {
       if (out.size() == most) break;

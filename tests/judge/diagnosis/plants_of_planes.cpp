@@ -230,6 +230,8 @@ std::vector<Plant> made_planes() {
           },
           false),
       3);
+  out("depth", "distances over a background of 0", {"depth-view", "depth-cleared-to-zero"},
+      depths([](const Scene& s, float z, const V& p, int) { return z < 1 ? view_depth(s, p) : 0.0f; }));
   out("depth", "depth in [-1, 1]", {"depth-ndc"},
       depths([](const Scene&, float z, const V&, int) { return 2 * z - 1; }));
   out("depth", "depth halved into [0, 1] again", {"depth-halved"},
