@@ -45,7 +45,8 @@ class CommandReader {
     return std::nullopt;
   }
 
-  /// Gives every row its values. Error(usage) for one argument too many, for what is missing, and of the rows.
+  /// Gives every row its values. Error(usage) for one argument too many, for what is missing, and for a value that its
+  /// row cannot read.
   void give() {
     give_arguments();
     for (const OptionRow& row : table_.rows)

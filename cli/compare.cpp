@@ -114,7 +114,7 @@ int compare_two_pictures(const CompareOptions& options) {
   }
   pictures.is_accepted = options.accept && !passes(pictures) && accepted(options, pictures.test);
   if (options.junit) write_text(*options.junit, junit_xml(as_row(options, pictures)));
-  print(options.json ? comparison_json(pictures) : shown_report(comparison_text(pictures)));
+  print(options.json ? comparison_json(pictures) + '\n' : shown_report(comparison_text(pictures)));
   for (const std::string& path : options.outputs) {
     const std::string why = is_page(path) ? "" : why_no_differences(pictures, path);
     if (why.empty())

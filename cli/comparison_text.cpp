@@ -293,12 +293,8 @@ std::string comparison_json(const ComparedPictures& pictures) {
   if (c.flip) json.put_raw("flip", flip_json(*c.flip));
   if (!c.no_flip.empty()) json.put("no_flip", c.no_flip);
   if (!pictures.judged.why_not.empty()) json.put("not_judged", pictures.judged.why_not);
-  if (pictures.judged.validation) {
-    std::string judged = validation_json(*pictures.judged.validation);
-    judged.pop_back();  // the end of its line
-    json.put_raw("judged", judged);
-  }
-  return json.text() + '\n';
+  if (pictures.judged.validation) json.put_raw("judged", validation_json(*pictures.judged.validation));
+  return json.text();
 }
 
 }  // namespace trueshade

@@ -1,5 +1,6 @@
 #pragma once
-// What the options of a command say together, checked once the rows of its table have taken their values.
+// Checks of several options of a command against each other. They come after each row of the command's table has read
+// its own value.
 #include <string>
 #include <vector>
 

@@ -55,7 +55,8 @@ OptionRow& add_value(CommandTable& table, const char* names, const char* value_n
   return table.add(std::move(row));
 }
 
-/// The same of a value that `read` makes of its text. Error(usage) of a text that means nothing.
+/// Adds an option of one value, which the function `read` makes of the option's text. `read` throws Error(usage) where
+/// the text means nothing.
 template <typename Value, typename Read>
 OptionRow& add_read(CommandTable& table, const char* names, const char* value_name, Value& value, Read read,
                     std::string help) {

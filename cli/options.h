@@ -54,8 +54,8 @@ struct SceneOptions : LimitedOptions {
   std::string scene;  ///< a file or builtin:NAME
   SceneParts parts;
   CameraChanges camera;
-  std::optional<double>
-      time;  ///< seconds of the scene's timeline; nothing: 0, and of export the scene with all that moves
+  /// Seconds of the scene's timeline. Nothing: 0, but export writes the scene with all that moves.
+  std::optional<double> time;
 
   double seconds() const { return time.value_or(0.0); }
 };

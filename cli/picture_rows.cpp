@@ -119,10 +119,8 @@ class FolderComparer {
     const compare::Comparison& c = pictures.comparison;
     row.state = pictures.judged.validation && trueshade::passes(pictures) ? RowState::within : state_of(c.outcome);
     row.reason = verdict_line(pictures);
-    if (!passes(row)) {
-      row.details = comparison_text(pictures), row.json = comparison_json(pictures);
-      row.json.pop_back();  // the end of its line
-    }
+    if (!passes(row)) row.details = comparison_text(pictures);
+    if (!passes(row) && options_.json) row.json = comparison_json(pictures);
     if (!passes(row) && c.worst)
       row.reason +=
           "; worst at " + std::to_string(c.worst->x) + ',' + std::to_string(c.worst->y) + values_text(*c.worst);

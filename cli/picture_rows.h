@@ -19,7 +19,7 @@ struct PictureRow {
   RowState state = RowState::same;
   std::string reason;   ///< verdict_line(), or why there is none
   std::string details;  ///< comparison_text() of pictures that do not pass: first and worst pixel, what it looks like
-  std::string json;     ///< comparison_json() of the same
+  std::string json;     ///< comparison_json() of the same, where JSON is asked for
   uint64_t unequal_pixels = 0, pixels = 0, left_out_pixels = 0;
   double largest = 0.0;  ///< difference in any channel
   std::optional<double> flip_mean;

@@ -313,7 +313,7 @@ bool judge_opengl(const ValidationOptions& options) {
     const std::string page = validation_page(v, scene);
     write_text(*options.report, page);
   }
-  const std::string text = options.json ? validation_json(v) : shown_report(validation_text(v));
+  const std::string text = options.json ? validation_json(v) + '\n' : shown_report(validation_text(v));
   activity.reset();
   print(text);
   say_files(options, v);

@@ -374,7 +374,7 @@ std::string validation_json(const Validation& v) {
       .put_raw("verdict", oracle::verdict_json(v.verdict))
       .put_raw("diagnosis", oracle::findings_json(v.findings));
   if (v.quotient) json.put_raw("quotient", oracle::quotient_json(*v.quotient));
-  return json.text() + '\n';
+  return json.text();
 }
 
 void find_explanation(const Scene& scene, Validation& v, std::span<const std::string> supposed) {
