@@ -253,7 +253,7 @@ constexpr Row kRows[] = {
     {"scenes/scene.h", "validate_camera", call_parts},
     {"scenes/scene_parts.h", "camera_named animation_named", call_parts},
     {"scenes/scene.h", "set_time frame_at", call_set_time},
-    {"scenes/scene.h", "shininess_of_roughness maps_of", call_shininess},
+    {"scenes/scene.h", "shininess_of_roughness maps_of map_name", call_shininess},
 };
 
 }  // namespace
