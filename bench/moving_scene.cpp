@@ -46,7 +46,7 @@ void MovingScene::move_to(int step) {
   for (size_t i = 0; i < lights_.size(); ++i) {
     const glm::dvec3 towards = on_circle(turns_of(step, i));
     const Light& home = lights_[i];
-    if (home.type == LightType::point || home.type == LightType::spot)
+    if (is_placed(home.type))
       scene_.lights[i].position = glm::vec3(glm::dvec3(home.position) + 0.02 * radius_ * towards);
     if (home.type == LightType::directional)
       scene_.lights[i].direction = glm::vec3(unit(glm::dvec3(home.direction) + 0.05 * towards));

@@ -52,7 +52,7 @@ std::string reflectance_line(uint64_t materials) {
 
 /// Lights of the kinds that have boxes, and whose range ends.
 bool has_box(const Light& light) {
-  return (light.type == LightType::point || light.type == LightType::spot) && std::isfinite(light.range);
+  return is_placed(light.type) && std::isfinite(light.range);
 }
 
 uint64_t boxed_lights(const Scene& scene) {
@@ -77,7 +77,7 @@ std::string eye_in_boxes_line(const Scene& scene) {
 /// Whether the mesh of a light in deferred-volumes holds the eye. Tests the light's extent, which the mesh nearly
 /// fills.
 bool volume_holds_eye(const Light& light, const LightVolumes& volumes, const glm::vec3& eye) {
-  const LightExtent extent = light.type == LightType::spot ? volumes.spot : volumes.point;
+  const LightExtent extent = stated_extent(light.type, volumes);
   if (!has_box(light)) return false;
   const glm::vec3 from = eye - light.position;
   const float along = glm::dot(from, light.direction), distance = glm::length(from);

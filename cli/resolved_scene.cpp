@@ -186,7 +186,6 @@ std::string texture_json(const Texture& texture, ResolvedArrays& arrays) {
 
 // --- Lights --------------------------------------------------------------------------------------------------------
 
-constexpr std::string_view kLightTypes[] = {"ambient", "directional", "point", "spot"};
 constexpr std::string_view kExtentNames[] = {"unbounded", "range", "box", "sphere", "cone"};
 
 /// What the light model makes of the light: section 8 of docs/arithmetic.md names the numbers of cones.
@@ -207,7 +206,7 @@ std::string light_json(const Light& light, const LightRow& row, const Pipeline& 
                        ResolvedArrays& arrays) {
   const LightExtent extent = drawn_extent(light, pipeline.light_volumes);
   JsonObject json;
-  json.put("type", kLightTypes[size_t(light.type)]).put_raw("position", json_of_vector(light.position));
+  json.put("type", name_of(light.type)).put_raw("position", json_of_vector(light.position));
   json.put_raw("direction", json_of_vector(light.direction)).put_raw("color", json_of_vector(light.color));
   json.put_raw("range", json_of_float(light.range)).put_raw("attenuation", json_of_vector(light.attenuation));
   json.put_raw("cone_rad", json_of_float(light.cone_rad)).put_raw("penumbra_rad", json_of_float(light.penumbra_rad));

@@ -48,15 +48,11 @@ GrowingBox placed(const GrowingBox& box, const Instance& instance) {
 }
 
 std::vector<std::pair<std::string_view, uint64_t>> lights_by_type(const Scene& scene) {
-  constexpr std::pair<LightType, std::string_view> kTypes[] = {{LightType::ambient, "ambient"},
-                                                               {LightType::directional, "directional"},
-                                                               {LightType::point, "point"},
-                                                               {LightType::spot, "spot"}};
   std::vector<std::pair<std::string_view, uint64_t>> out;
-  for (const auto& [type, name] : kTypes) {
+  for (const LightTypeRow& row : kLightTypes) {
     const auto count = std::count_if(scene.lights.begin(), scene.lights.end(),
-                                     [type = type](const Light& light) { return light.type == type; });
-    if (count != 0) out.emplace_back(name, uint64_t(count));
+                                     [&row](const Light& light) { return &row_of(light.type) == &row; });
+    if (count != 0) out.emplace_back(row.name, uint64_t(count));
   }
   return out;
 }

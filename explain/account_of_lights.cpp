@@ -8,20 +8,6 @@ namespace {
 
 constexpr size_t kMostListed = 64;
 
-std::string_view type_name(LightType type) {
-  switch (type) {
-    case LightType::ambient:
-      return "ambient";
-    case LightType::directional:
-      return "directional";
-    case LightType::point:
-      return "point";
-    case LightType::spot:
-      return "spot";
-  }
-  return {};  // unreachable: every enumerator returns above
-}
-
 /// Names of what a light that adds nothing is listed under.
 const char* list_name(LightFate fate) {
   switch (fate) {
@@ -92,8 +78,8 @@ Account lights_account(const ExplainedFrame& frame, const LightTotal& total, Lig
   for (const size_t i : shown) {
     const LightAtPixel& at = total.lights[i];
     const LightType type = total.table->row[i].type;
-    Account& part = out.part("light", "light " + std::to_string(i) + ", " + std::string(type_name(type)) + ": " +
-                                          std::string(text(at.fate)));
+    Account& part = out.part(
+        "light", "light " + std::to_string(i) + ", " + std::string(name_of(type)) + ": " + std::string(text(at.fate)));
     part.add("light", int64_t(i), "index").add("fate", std::string(text(at.fate)), "");
     const bool tells_lines = detail == Detail::all || i == strongest(total);
     add_program_light(frame, total, i, tells_lines ? ProgramLines::told : ProgramLines::left_out, detail, part);

@@ -129,7 +129,7 @@ void add_program_light(const ExplainedFrame& frame, const LightTotal& total, siz
                        Detail detail, Account& to) {
   const LightAtPixel& at = total.lights[light];
   const LightRow& row = total.table->row[light];
-  const bool placed = row.type == LightType::point || row.type == LightType::spot;
+  const bool placed = is_placed(row.type);
   to.add("color", row.color, "colour times intensity");
   if (placed && std::isfinite(row.range)) to.add("range", row.range, "scene units");
   if (placed) to.add("d", at.d, "distance, scene units");

@@ -38,7 +38,7 @@ std::string_view text(LightFate fate) {
 }
 
 bool in_reach(const LightRow& light, const SurfacePlanes& surface, LightAtPixel& at) {
-  if (light.type != LightType::point && light.type != LightType::spot) return true;
+  if (!is_placed(light.type)) return true;
   const float d2 = squared_distance(light, surface);
   at.d = std::sqrt(d2);
   return d2 < light.cut2;

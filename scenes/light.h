@@ -1,11 +1,39 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <string_view>
 
 namespace trueshade {
 
 enum class LightType : uint8_t { ambient, directional, point, spot };
+
+/// From where a light reaches a surface, and so which field of LightVolumes bounds it.
+enum class LightReach : uint8_t {
+  everywhere,  ///< the light has no place, and nothing bounds it
+  all_around,  ///< its position; LightVolumes::point
+  to_one_side  ///< its position, about `direction`; LightVolumes::spot
+};
+
+/// What all lights of a type have in common.
+struct LightTypeRow {
+  std::string_view name;  ///< in files and in all that is printed
+  LightReach reach;
+  bool is_aimed;  ///< reads Light::direction
+  bool in_gltf;   ///< KHR_lights_punctual has the type, by the same name
+};
+
+/// A row each, in the order of LightType.
+inline constexpr LightTypeRow kLightTypes[] = {{"ambient", LightReach::everywhere, false, false},
+                                               {"directional", LightReach::everywhere, true, true},
+                                               {"point", LightReach::all_around, false, true},
+                                               {"spot", LightReach::to_one_side, true, true}};
+
+constexpr const LightTypeRow& row_of(LightType type) { return kLightTypes[size_t(type)]; }
+constexpr std::string_view name_of(LightType type) { return row_of(type).name; }
+/// Whether lights of the type have a position, a distance to a surface, and a range.
+constexpr bool is_placed(LightType type) { return row_of(type).reach != LightReach::everywhere; }
 
 /// One light in world space. A light model reads the fields it names and no others.
 struct Light {

@@ -8,8 +8,6 @@
 namespace trueshade {
 namespace {
 
-bool placed(LightType type) { return type == LightType::point || type == LightType::spot; }
-
 /// `side` times the mesh, moved to `place`.
 glm::mat4x3 moved(const glm::vec3& place, float side) {
   glm::mat4x3 m(0.0f);
@@ -29,7 +27,7 @@ Scene seen_alike(const Scene& scene) {
 template <typename Use>
 void for_each_box(const Scene& scene, const Use& use) {
   for (const Light& light : scene.lights)
-    if (placed(light.type) && std::isfinite(2.0f * light.range)) use(light, moved(light.position, 2.0f * light.range));
+    if (is_placed(light.type) && std::isfinite(2.0f * light.range)) use(light, moved(light.position, 2.0f * light.range));
 }
 
 glm::vec3 full_color(const glm::vec3& color) {
@@ -84,7 +82,7 @@ Scene light_markers(const Scene& scene, float radius) {
   Scene markers = seen_alike(scene);
   markers.meshes = {sphere_mesh(8)};
   for (const Light& light : scene.lights) {
-    if (!placed(light.type)) continue;
+    if (!is_placed(light.type)) continue;
     markers.instances.push_back({0, uint32_t(markers.materials.size()), moved(light.position, radius)});
     markers.materials.push_back({"light", glm::vec4(full_color(light.color), 1.0f)});
   }

@@ -159,9 +159,9 @@ void check_light(const Light& light, const Part& part) {
   if (light.type == LightType::ambient) return;
   part.require(within(light.ambient, 0.0f, kMostReach), "the ambient colour is negative, over 1e18 or no number",
                "each channel in [0, 1e18]");
-  if (light.type != LightType::point)
+  if (row_of(light.type).is_aimed)
     part.require(is_unit(light.direction), "the direction is not of unit length", "length 1");
-  if (light.type == LightType::directional) return;
+  if (!is_placed(light.type)) return;
   part.require(within(light.position, -kMostReach, kMostReach), "the position is not finite or over 1e18",
                "finite numbers");
   part.require(light.range > 0.0f, "the range is not above 0", "above 0, or infinite");

@@ -82,8 +82,7 @@ std::vector<std::vector<uint32_t>> lists(const Scene& scene, const Pipeline& pip
   const bool ends = ends_at_range(pipeline.light_model.falloff);
   for (uint32_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
-    const bool bounded = (light.type == LightType::point && (ends || limits.point)) ||
-                         (light.type == LightType::spot && (ends || limits.spot));
+    const bool bounded = is_placed(light.type) && (ends || limits.ends(light.type));
     const double radius = bounded ? double(light.range) * 1.001 : HUGE_VAL;  // more than all roundings here together
     const Range x = columns.touched(light.position, radius), y = rows.touched(light.position, radius);
     for (int row = y.begin; row < y.end; ++row)
@@ -95,8 +94,7 @@ std::vector<std::vector<uint32_t>> lists(const Scene& scene, const Pipeline& pip
                              depths[tile][1].distance(light.position) > -radius &&
                              surface.within(light.position, radius);
         if (reaches || !bounded) {
-          const bool placed = light.type >= LightType::point;
-          if (!faces_alone || !placed || surface.faces(light.position)) out[tile].push_back(i);
+          if (!faces_alone || !is_placed(light.type) || surface.faces(light.position)) out[tile].push_back(i);
         }
       }
   }

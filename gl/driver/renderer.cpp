@@ -321,9 +321,7 @@ GlslOptions GlRenderer::shader_options(const GlDraw& draw) const {
   options.ids = options.uv = draw.planes;
   options.primitive = primitive_ids_;
   options.rgb16f = rgb16f_;
-  options.ambient = draw.planes || buffers_->has_type(LightType::ambient);
-  options.directional = draw.planes || buffers_->has_type(LightType::directional);
-  options.spot = draw.planes || buffers_->has_type(LightType::spot);
+  if (!draw.planes) options.light_types = buffers_->light_types();
   return options;
 }
 

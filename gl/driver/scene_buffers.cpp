@@ -87,8 +87,10 @@ bool SceneBuffers::has_vertex_colors() const {
   return std::any_of(scene_->meshes.begin(), scene_->meshes.end(), [](const Mesh& m) { return m.has_color(); });
 }
 
-bool SceneBuffers::has_type(LightType type) const {
-  return std::any_of(scene_->lights.begin(), scene_->lights.end(), [type](const Light& l) { return l.type == type; });
+uint32_t SceneBuffers::light_types() const {
+  uint32_t types = 0;
+  for (const Light& light : scene_->lights) types |= 1u << uint32_t(light.type);
+  return types;
 }
 
 void SceneBuffers::upload_instances(const Pipeline& pipeline) {

@@ -23,7 +23,7 @@ class SceneBuffers {
 
   const Scene& scene() const { return *scene_; }
   bool has_vertex_colors() const;
-  bool has_type(LightType type) const;
+  uint32_t light_types() const;  ///< of the scene, a bit each: 1 << LightType
 
   /// Matrices of docs/arithmetic.md sections 1 and 2, for every instance.
   void upload_instances(const Pipeline& pipeline);

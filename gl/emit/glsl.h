@@ -23,12 +23,12 @@ struct GlslOptions {
   bool vertex_tangents = false;  ///< of normal maps: some meshes have tangents, which `vertex_tangents` has
   // Of maps, read where the light model maps metals or adds emission: white where a material has none.
   bool metal_maps = false, emission_maps = false, occlusion_maps = false;
-  bool more_uv = false;       ///< of maps: some read texture coordinates beside the first set, from `more_uv`
-  bool double_sided = false;  ///< materials may be: the uniform of that name says so, a draw each
-  bool unlit = false;         ///< some materials are unlit
-  bool transparent = false;   ///< surfaces are drawn after the lights
-  bool vertex_color = true;   ///< false: no mesh has any, so the base colour is the albedo
-  bool ambient = true, directional = true, spot = true;  ///< light types the loop knows beside point
+  bool more_uv = false;           ///< of maps: some read texture coordinates beside the first set, from `more_uv`
+  bool double_sided = false;      ///< materials may be: the uniform of that name says so, a draw each
+  bool unlit = false;             ///< some materials are unlit
+  bool transparent = false;       ///< surfaces are drawn after the lights
+  bool vertex_color = true;       ///< false: no mesh has any, so the base colour is the albedo
+  uint32_t light_types = 0b1111;  ///< that the loop knows besides point, a bit each: 1 << LightType
 };
 
 /// What a format is stored as: rgba16f for rgb16f where the driver cannot render to that.
@@ -94,8 +94,12 @@ std::string read_surface_text(const Pipeline& pipeline, const GlslOptions& optio
 bool ends_at_range(Falloff falloff);
 /// Of which lights the shader has to leave out what lies beyond their range.
 struct RangeLimits {
-  bool point = false, spot = false;
-  bool any() const { return point || spot; }
+  bool all_around = false, to_one_side = false;
+  bool any() const { return all_around || to_one_side; }
+  bool ends(LightType type) const {
+    const LightReach reach = row_of(type).reach;
+    return (all_around && reach == LightReach::all_around) || (to_one_side && reach == LightReach::to_one_side);
+  }
 };
 RangeLimits limits_range(const Pipeline& pipeline);
 }  // namespace trueshade::oracle

@@ -32,7 +32,7 @@ RangeLimits limits_range(const Pipeline& p) {
            !(p.strategy == Strategy::deferred_volumes && extent >= LightExtent::box);
   };
   if (ends_at_range(p.light_model.falloff) && p.strategy != Strategy::deferred_volumes) return {};
-  return {limited(p.light_volumes.point), limited(p.light_volumes.spot)};
+  return {limited(p.light_volumes.point), limited(p.light_volumes.spot)};  // all around, to one side
 }
 
 void set_light_shaders(const Pipeline& p, const GlslOptions& options, GlslShaders& shaders) {

@@ -146,13 +146,17 @@ std::string light_of_text(const PassProgram& program) {
          "  for (int k = 0; k < 4; ++k) l.user[k] = vec4(0.0);\n  return l;\n}\n";
 }
 
+/// The name of light_interface.glsl for a type.
+std::string type_constant(LightType type) { return "light_type_" + std::string(name_of(type)); }
+
 /// The type of a light whose record says `type`. Types that no light of the scene has are left out, so that compilers
 /// leave out what a program does with them.
 std::string type_text(const GlslOptions& options) {
-  return std::string("uint ts_type_of(float type) {\n") +
-         (options.ambient ? "  if (type == 0.0) return light_type_ambient;\n" : "") +
-         (options.directional ? "  if (type == 1.0) return light_type_directional;\n" : "") +
-         (options.spot ? "  if (type == 3.0) return light_type_spot;\n" : "") + "  return light_type_point;\n}\n";
+  std::string text = "uint ts_type_of(float type) {\n";
+  for (size_t i = 0; i < std::size(kLightTypes); ++i)
+    if (LightType(i) != LightType::point && (options.light_types >> i & 1) != 0)
+      text += "  if (type == " + std::to_string(i) + ".0) return " + type_constant(LightType(i)) + ";\n";
+  return text + "  return light_type_point;\n}\n";
 }
 
 /// Functions behind the user's text, declared: those of them that main calls.
@@ -228,13 +232,14 @@ std::string unlit_text(const LightDraw& draw) {
 static_assert(kMaterialTexels == 3);
 
 /// True where the extent of the light `l` does not have the pixel; empty where no extent ends.
-std::string beyond_text_of(const Pipeline& p) {
+std::string beyond_text_of(const Pipeline& p, const GlslOptions& options) {
   const RangeLimits limits = limits_range(p);
   if (!limits.any()) return {};
-  const char* bounded = limits.point && limits.spot ? "l.type == light_type_point || l.type == light_type_spot"
-                        : limits.point              ? "l.type == light_type_point"
-                                                    : "l.type == light_type_spot";
-  return std::string("(") + bounded + ") && !(distance(l.position, P) < l.range)";
+  std::string bounded;
+  for (size_t i = 0; i < std::size(kLightTypes); ++i)
+    if (limits.ends(LightType(i)) && (LightType(i) == LightType::point || (options.light_types >> i & 1) != 0))
+      bounded += (bounded.empty() ? "l.type == " : " || l.type == ") + type_constant(LightType(i));
+  return bounded.empty() ? bounded : "(" + bounded + ") && !(distance(l.position, P) < l.range)";
 }
 
 /// The file's variables as the functions before start() leave them, whatever the light.
@@ -245,8 +250,9 @@ std::string order_text(const programs::LightOutline& has) {
 }
 
 /// Adds all lights.
-std::string loop_text(const Pipeline& p, const programs::LightOutline& has, const LightDraw& draw) {
-  const std::string beyond = beyond_text_of(p);
+std::string loop_text(const Pipeline& p, const GlslOptions& options, const programs::LightOutline& has,
+                      const LightDraw& draw) {
+  const std::string beyond = beyond_text_of(p, options);
   return "  for (int i = " + draw.first + "; i < " + draw.end + "; ++i) {\n    Light l = ts_light_of(i);\n" +
          (beyond.empty() ? "" : "    if (" + beyond + ") continue;\n") +
          (has.variables.empty() ? "" : "    ts_fresh();\n") + "    sum += ts_added(s, l, v);\n  }\n";
@@ -254,9 +260,10 @@ std::string loop_text(const Pipeline& p, const programs::LightOutline& has, cons
 
 /// Statements of a draw that has one light: its term becomes `sum`. In a pass over the scene the term of light 0 is
 /// added to what `sum` starts from.
-std::string one_light_text(const Pipeline& p, const programs::LightOutline& has, const LightDraw& draw) {
+std::string one_light_text(const Pipeline& p, const GlslOptions& options, const programs::LightOutline& has,
+                           const LightDraw& draw) {
   const bool pass = draw.kind == LightDraw::Kind::pass;
-  const std::string fresh = has.variables.empty() ? "" : "  ts_fresh();\n", beyond = beyond_text_of(p);
+  const std::string fresh = has.variables.empty() ? "" : "  ts_fresh();\n", beyond = beyond_text_of(p, options);
   const std::string light = "  Light l = ts_light_of(max(" + draw.light + ", 0));\n";
   const std::string is_beyond = beyond.empty() ? "" : "  bool beyond = " + beyond + ";\n";
   if (!pass)
@@ -266,14 +273,15 @@ std::string one_light_text(const Pipeline& p, const programs::LightOutline& has,
          draw.light + " == 0" + (beyond.empty() ? "" : " && !beyond") + " && added != vec3(0.0))\n    sum += added;\n";
 }
 
-std::string sum_text_of(const Pipeline& p, const programs::LightOutline& has, const LightDraw& draw) {
+std::string sum_text_of(const Pipeline& p, const GlslOptions& options, const programs::LightOutline& has,
+                        const LightDraw& draw) {
   using Kind = LightDraw::Kind;
   const bool kept = !has.variables.empty(), starts = has.defines_start && draw.kind != Kind::light;
   std::string text = "  View v = ts_view();\n";
   if (kept) text += "  ts_keep();\n";
   text += starts ? order_text(has) + "  vec3 sum = ts_start(s, v);\n" : "  vec3 sum = vec3(0.0);\n";
-  if (draw.kind == Kind::sum) text += loop_text(p, has, draw);
-  if (draw.kind == Kind::pass || draw.kind == Kind::light) text += one_light_text(p, has, draw);
+  if (draw.kind == Kind::sum) text += loop_text(p, options, has, draw);
+  if (draw.kind == Kind::pass || draw.kind == Kind::light) text += one_light_text(p, options, has, draw);
   if (!has.defines_finish)
     return text + "  target = vec4(sum, " + (p.light_model.alpha_from_albedo ? "albedo.a" : "1.0") + ");\n";
   return text + order_text(has) + (kept && has.defines_start ? "  ts_start(s, v);\n" : "") +
@@ -294,8 +302,8 @@ std::string light_fragment_text(const Pipeline& p, const GlslOptions& options, c
   text += forward ? "  vec3 P = world_position;\n  vec3 stored_normal = " + normal_text(p, options) + ";\n" +
                         material_text(p.light_model, options)
                   : read_surface_text(p, options);
-  text += surface_fields_text(p, program) + (unlit ? unlit_text(draw) : "") + draw.before + sum_text_of(p, has, draw) +
-          "}\n";
+  text += surface_fields_text(p, program) + (unlit ? unlit_text(draw) : "") + draw.before +
+          sum_text_of(p, options, has, draw) + "}\n";
   const std::string& file = program.text;
   return text + std::string(kUserText) + file + (file.ends_with('\n') ? "" : "\n") + tail_text(has);
 }

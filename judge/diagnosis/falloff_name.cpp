@@ -62,8 +62,7 @@ std::vector<Unfallen> unfallen(const LightShares& shares, const KnownFalloff& ou
       const Light& light = shares.scene().lights[i];
       const Triple3 way = minus(triple(light.position), p.surface.position);
       const double d = std::sqrt(inner(way, way)), half = 0.5 * double(light.range);
-      if ((light.type != LightType::point && light.type != LightType::spot) || !(d > 0) || !std::isfinite(half))
-        continue;
+      if (!is_placed(light.type) || !(d > 0) || !std::isfinite(half)) continue;
       for (size_t k = 0; k < 3; ++k)
         moved.lights[i].position[int(k)] = float(p.surface.position[k] + half / d * way[k]);
       place[i] = pixel.lights.size();

@@ -11,7 +11,7 @@ namespace {
 
 using F = LightFault;
 
-bool lamp(const Light& l) { return l.type == LightType::point || l.type == LightType::spot; }
+bool lamp(const Light& l) { return is_placed(l.type); }
 bool has_lamps(const LightPass& p) { return std::any_of(p.lights.begin(), p.lights.end(), lamp); }
 bool falls_off(const LightPass& p) { return has_lamps(p) && p.pipeline.light_model.falloff != Falloff::none; }
 bool has_range(const LightPass& p) {
@@ -160,7 +160,7 @@ void thin_out(LightPass& p, double step) {
   for (size_t i = 0; i < p.lights.size(); i += size_t(step)) left.push_back(p.lights[i]);
   p.lights = std::move(left);
 }
-bool has_direction(const Light& l) { return l.type == LightType::directional || l.type == LightType::spot; }
+bool has_direction(const Light& l) { return row_of(l.type).is_aimed; }
 /// Numbers of the light, times those of the vector.
 void scale_reach(Light& l, const Vector& v) { l.range *= float(v[0]); }
 void scale_cone(Light& l, const Vector& v) { l.cone_rad *= float(v[0]), l.penumbra_rad *= float(v[1]); }

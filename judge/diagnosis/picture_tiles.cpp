@@ -127,7 +127,7 @@ std::vector<uint8_t> TileLists::list(const LightPass& pass, int side, int from, 
   for (size_t i = 0; i < listed.size() && most > 0; ++i) {
     const Light& light = pass.lights[i];
     const double range = double(light.range) * pass.fault.range;
-    if (light.type == LightType::ambient || light.type == LightType::directional || std::isinf(range)) {
+    if (!is_placed(light.type) || std::isinf(range)) {
       listed[i] = 1, --most;
       continue;
     }

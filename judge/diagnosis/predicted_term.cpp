@@ -60,7 +60,7 @@ PredictedTerms::PredictedTerms(const LightPass& pass, const PlainSurface& surfac
 }
 
 bool PredictedTerms::in_range(const PlainSurface& surface, const Light& light) const {
-  if (light.type == LightType::ambient || light.type == LightType::directional) return true;
+  if (!is_placed(light.type)) return true;
   const Triple3 offset = minus(place_of(light), surface.position);
   const double range = double(light.range) * pass_.fault.range;
   return !(inner(offset, offset) >= range * range);

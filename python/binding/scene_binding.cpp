@@ -246,10 +246,12 @@ void add_instances(PythonScene& to, int64_t mesh, int64_t material, const py::ob
 }
 
 LightType light_type_of(const std::string& name) {
-  constexpr const char* kNames[] = {"ambient", "directional", "point", "spot"};
-  for (size_t i = 0; i < 4; ++i)
-    if (name == kNames[i]) return LightType(i);
-  throw bad_argument("type", "there is no light of the type '" + name + "'", "ambient, directional, point or spot");
+  std::string names;
+  for (size_t i = 0; i < std::size(kLightTypes); ++i) {
+    if (name == kLightTypes[i].name) return LightType(i);
+    names += (i == 0 ? "" : ", ") + std::string(kLightTypes[i].name);
+  }
+  throw bad_argument("type", "there is no light of the type '" + name + "'", "one of: " + names);
 }
 
 float range_of(double range) {

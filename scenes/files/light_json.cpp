@@ -39,10 +39,12 @@ struct LightObject {
   json::ObjectKeys keys, step_keys;
 };
 constexpr LightObject kLightObjects[] = {
-    {LightType::ambient, {"ambient", kAmbientKeys}, {"ambient_step", kAmbientStepKeys}},
-    {LightType::directional, {"directional", kDirectionalKeys}, {"directional_step", kDirectionalStepKeys}},
-    {LightType::point, {"point", kPointKeys}, {"point_step", kPointStepKeys}},
-    {LightType::spot, {"spot", kSpotKeys}, {"spot_step", kSpotStepKeys}}};
+    {LightType::ambient, {name_of(LightType::ambient), kAmbientKeys}, {"ambient_step", kAmbientStepKeys}},
+    {LightType::directional,
+     {name_of(LightType::directional), kDirectionalKeys},
+     {"directional_step", kDirectionalStepKeys}},
+    {LightType::point, {name_of(LightType::point), kPointKeys}, {"point_step", kPointStepKeys}},
+    {LightType::spot, {name_of(LightType::spot), kSpotKeys}, {"spot_step", kSpotStepKeys}}};
 
 /// What stands for many lights, by the value of the key `type`.
 constexpr json::ObjectKeys kRing{"ring", kRingKeys}, kBox{"box", kBoxKeys}, kBuffers{"buffers", kBuffersKeys};

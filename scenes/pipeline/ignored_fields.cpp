@@ -10,8 +10,6 @@
 namespace trueshade {
 namespace {
 
-bool has_place(const Light& light) { return light.type == LightType::point || light.type == LightType::spot; }
-
 // --- What a pipeline reads -----------------------------------------------------------------------------------------
 
 bool reads_range(Falloff falloff) {
@@ -19,10 +17,6 @@ bool reads_range(Falloff falloff) {
 }
 
 bool reads_attenuation(Falloff falloff) { return falloff == Falloff::quadratic || falloff == Falloff::attenuation; }
-
-bool is_bounded(const Light& light, const LightVolumes& volumes) {
-  return (light.type == LightType::spot ? volumes.spot : volumes.point) != LightExtent::unbounded;
-}
 
 bool blends_transparent(const Material& material, const Pipeline& pipeline) {
   return material.transparent && pipeline.transparency.mode != TransparencyMode::none;
@@ -46,12 +40,12 @@ constexpr Field<Light> kLightFields[] = {
      [](const Light& l) { return l.type == LightType::spot && l.spot_exponent != 0.0f; },
      [](const Light&, const Pipeline& p) { return p.light_model.cone == Cone::exponent; }},
     {"range", "The falloff of the light model has no end, and no extent of light_volumes bounds the lights",
-     [](const Light& l) { return has_place(l) && std::isfinite(l.range); },
+     [](const Light& l) { return is_placed(l.type) && std::isfinite(l.range); },
      [](const Light& l, const Pipeline& p) {
-       return reads_range(p.light_model.falloff) || is_bounded(l, p.light_volumes);
+       return reads_range(p.light_model.falloff) || stated_extent(l.type, p.light_volumes) != LightExtent::unbounded;
      }},
     {"attenuation", "The falloff of the light model has no constant, linear and quadratic factors",
-     [](const Light& l) { return has_place(l) && l.attenuation != glm::vec3(1.0f, 0.0f, 0.0f); },
+     [](const Light& l) { return is_placed(l.type) && l.attenuation != glm::vec3(1.0f, 0.0f, 0.0f); },
      [](const Light&, const Pipeline& p) { return reads_attenuation(p.light_model.falloff); }},
     {"ambient", "Only the order 'with_ambient' adds a light's share of ambient light",
      [](const Light& l) { return l.type != LightType::ambient && l.ambient != glm::vec3(0.0f); },

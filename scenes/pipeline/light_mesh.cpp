@@ -97,9 +97,8 @@ const LightMesh& LightMeshes::operator[](LightExtent extent) const {
 }
 
 LightExtent drawn_extent(const Light& light, const LightVolumes& volumes) {
-  const bool placed = light.type == LightType::point || light.type == LightType::spot;
-  if (!placed || std::isinf(light.range)) return LightExtent::unbounded;
-  const LightExtent extent = light.type == LightType::point ? volumes.point : volumes.spot;
+  if (!is_placed(light.type) || std::isinf(light.range)) return LightExtent::unbounded;
+  const LightExtent extent = stated_extent(light.type, volumes);
   if (extent != LightExtent::cone) return extent;
   return light.type == LightType::spot && outer_rad(light) <= kWidestCone_rad ? extent : LightExtent::sphere;
 }

@@ -112,6 +112,14 @@ struct LightVolumes {
   bool operator==(const LightVolumes&) const = default;
 };
 
+/// What bounds lights of a type whose range is finite.
+constexpr LightExtent stated_extent(LightType type, const LightVolumes& volumes) {
+  const LightReach reach = row_of(type).reach;
+  return reach == LightReach::everywhere   ? LightExtent::unbounded
+         : reach == LightReach::all_around ? volumes.point
+                                           : volumes.spot;
+}
+
 /// Blending of the draws of deferred-volumes: RGB accumulate, alpha is not written.
 inline constexpr BlendState kAddLight{true, kAccumulate, kAccumulate, {}, {true, true, true, false}};
 

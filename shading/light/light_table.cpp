@@ -48,7 +48,6 @@ float cut_distance2(Falloff falloff, float range) {
   return least_outside(range * range, [&](float d2) { return lit_at(falloff, d2, range); });
 }
 
-bool has_position(LightType type) { return type == LightType::point || type == LightType::spot; }
 bool ends(Falloff falloff) { return falloff == Falloff::linear_range || falloff == Falloff::inverse_square; }
 
 struct ConeRow {
@@ -75,7 +74,7 @@ LightRow row_of(const Light& light, const LightModel& model) {
   const ConeRow cone = cone_row(light, model.cone);
   LightRow row{};
   row.type = light.type;
-  row.kind = !has_position(light.type) ? LightKind::other : cone.narrow ? LightKind::coned : LightKind::point;
+  row.kind = !is_placed(light.type) ? LightKind::other : cone.narrow ? LightKind::coned : LightKind::point;
   for (int c = 0; c < 3; ++c) {
     row.position[c] = position[c];
     row.color[c] = light.color[c] * model.damping;
@@ -112,13 +111,13 @@ void make_rows(std::span<const Light> lights, const LightModel& model, size_t fi
   for (size_t k = 0; k < lights.size(); ++k) {
     const Light& light = lights[k];
     LightRow& row = table.row[first + k] = row_of(light, model);
-    if (ends(model.falloff) && has_position(light.type)) {
+    if (ends(model.falloff) && is_placed(light.type)) {
       if (light.range != range) range = light.range, cut2 = cut_distance2(model.falloff, range);
       row.cut2 = cut2;
     }
     // No comparison with a NaN drops a light.
     for (int c = 0; c < 3; ++c)
-      table.position[c][first + k] = has_position(light.type) ? row.position[c] : std::nanf("");
+      table.position[c][first + k] = is_placed(light.type) ? row.position[c] : std::nanf("");
     table.cut2[first + k] = row.cut2;
   }
 }

@@ -5,8 +5,6 @@
 namespace trueshade::viewer {
 namespace {
 
-constexpr const char* kTypeNames[] = {"ambient", "directional", "point", "spot"};
-
 /// A colour as a swatch has it: of full brightness.
 ImVec4 swatch_of(const glm::vec3& color) {
   const float most = std::max({color.x, color.y, color.z, 1e-30f});
@@ -30,7 +28,7 @@ void draw_row(const PanelContext& context, uint32_t index) {
                      ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoPicker, {side, side});
   ImGui::SameLine();
   char name[64];
-  std::snprintf(name, sizeof name, "%u  %s%s", index, kTypeNames[size_t(light.type)],
+  std::snprintf(name, sizeof name, "%u  %s%s", index, name_of(light.type).data(),
                 known != nullptr ? "  \xE2\x80\xA2" : "");
   const bool selected = session.desk().selected_light == index;
   ImGui::AlignTextToFramePadding();
@@ -63,7 +61,7 @@ void draw_editor(const PanelContext& context, uint32_t index) {
   LightChange change = known != nullptr ? *known : LightChange{index};
   bool changed = false;
   char title[64];
-  std::snprintf(title, sizeof title, "Light %u, %s", index, kTypeNames[size_t(light.type)]);
+  std::snprintf(title, sizeof title, "Light %u, %s", index, name_of(light.type).data());
   heading(context, title);
   const float width = ImGui::GetContentRegionAvail().x - context.size(104) + ImGui::GetStyle().WindowPadding.x;
   draw_color(context, light, change, changed);
@@ -74,7 +72,7 @@ void draw_editor(const PanelContext& context, uint32_t index) {
     change.intensity = std::clamp(double(intensity), 0.0, 1e18);  // one that was typed may be over 20
     changed = true;
   }
-  if (light.type == LightType::point || light.type == LightType::spot) {
+  if (is_placed(light.type)) {
     const bool drawn = index < context.picture.lights.size();
     glm::vec3 position = change.position ? *change.position
                          : drawn         ? context.picture.lights[index].position

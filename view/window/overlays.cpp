@@ -133,7 +133,7 @@ void draw_marks(const PanelContext& context) {
   const std::optional<uint32_t> light = session.desk().selected_light;
   if (!light || *light >= context.picture.lights.size()) return;
   const Light& shown = context.picture.lights[*light];
-  if (shown.type != LightType::point && shown.type != LightType::spot) return;
+  if (!is_placed(shown.type)) return;
   if (const auto at = in_window(context, shown.position)) {
     list.AddCircle(*at, context.size(9), IM_COL32(0, 0, 0, 160), 24, context.size(3.5f));
     list.AddCircle(*at, context.size(9), kAccent, 24, context.size(1.5f));

@@ -6,7 +6,11 @@
 // those of the document.
 namespace trueshade::gltf {
 
-inline constexpr std::string_view kLightTypeNames[] = {"ambient", "directional", "point", "spot"};
+inline constexpr auto kLightTypeNames = [] {
+  std::array<std::string_view, std::size(kLightTypes)> names;
+  for (size_t i = 0; i < names.size(); ++i) names[i] = kLightTypes[i].name;
+  return names;
+}();
 inline constexpr std::string_view kBetweenNames[] = {"linear", "step", "cubic", "slerp"};
 inline constexpr std::string_view kLevelsNames[] = {"one", "filtered", "stored"};
 inline constexpr std::string_view kLightPropertyNames[] = {"color",     "intensity",    "ambient",     "position",

@@ -39,7 +39,7 @@ double photometric_intensity(const Light& light, bool photometric) {
 std::string note_of_lights(const Document& document, const Scene& scene) {
   std::vector<const Light*> written;
   for (const Light& light : scene.lights)
-    if (light.type != LightType::ambient) written.push_back(&light);
+    if (row_of(light.type).in_gltf) written.push_back(&light);
   std::vector<const NodeSource*> nodes;
   for (const NodeSource& node : document.nodes)
     if (node.light != kNone) nodes.push_back(&node);

@@ -22,25 +22,10 @@ std::string placed(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z
   return text + ',' + rest + '}';
 }
 
-/// The value of KHR_lights_punctual's key `type`; ambient light has none.
-std::string name_of(LightType type) {
-  switch (type) {
-    case LightType::ambient:
-      return "";
-    case LightType::directional:
-      return "directional";
-    case LightType::point:
-      return "point";
-    case LightType::spot:
-      return "spot";
-  }
-  return "";  // unreachable: every enumerator returns above
-}
-
 std::string punctual(const Light& light, bool photometric) {
   const double largest = std::max({light.color.x, light.color.y, light.color.z}),
                scale = largest > 0.0 ? 1.0 / largest : 1.0;
-  std::string text = "{\"type\":\"" + name_of(light.type) + "\",\"color\":";
+  std::string text = "{\"type\":\"" + std::string(name_of(light.type)) + "\",\"color\":";
   const double color[] = {std::min(light.color.x * scale, 1.0), std::min(light.color.y * scale, 1.0),
                           std::min(light.color.z * scale, 1.0)};
   append_json(text, std::span<const double>(color));
@@ -74,7 +59,7 @@ void write_lights(Writing& out) {
   std::string lights;
   uint32_t count = 0;
   for (const Light& light : out.scene.lights) {
-    if (light.type == LightType::ambient) continue;
+    if (!row_of(light.type).in_gltf) continue;
     lights += (count == 0 ? "" : ",") + punctual(light, out.scene.photometric);
     out.glb.add("nodes", light_node(light, count++));
   }
