@@ -51,12 +51,7 @@ std::string light_fragment_text(const Pipeline& pipeline, const GlslOptions& opt
 /// What stands before the user's text in such a shader, or the whole of another.
 std::string_view own_text(std::string_view shader);
 
-/// RGBA32F texels that a light may have in the buffer `lights`: position, type; colour, range; direction, cos_outer;
-/// attenuation, spot exponent; ambient, index; cone, penumbra, cos_inner, penumbra_slope; cone_scale, cone_offset,
-/// cutoff_slope, 0.
-inline constexpr size_t kLightTexels = 7;
-
-/// Which of them it has, one behind the other: the first two, and those of which the light program reads something.
+/// Which texels a light has in the buffer `lights` (light_record.h), one behind the other: the first two, and those of which the light program reads something.
 std::vector<size_t> light_texels(const Pipeline& pipeline);
 
 /// Where Vulkan binds the block of parameters, in set 0.

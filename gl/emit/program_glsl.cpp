@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "gl/emit/light_record.h"
 #include "gl/emit/light_text.h"
 #include "scenes/light_models/stated_model.h"
 
@@ -33,31 +34,6 @@ constexpr ViewMember kViewMembers[] = {
     {"size", "vec4 picture_place", "picture_place.zw", "vec2(0.0)"},
     {"time", "vec3 moment", "moment.x", "0.0"},
     {"frame", "vec3 moment", "uint(moment.y) * 65536u + uint(moment.z)", "0u"},
-};
-
-/// A member of Light: of texel i, "ti", or what it is where the record has not that texel.
-struct LightMember {
-  std::string_view name, value, unread;
-  size_t texel() const { return size_t(value[value.find_first_of("0123456")] - '0'); }
-};
-constexpr LightMember kLightMembers[] = {
-    {"position", "t0.xyz", "vec3(0.0)"},
-    {"type", "ts_type_of(t0.w)", "light_type_point"},
-    {"color", "t1.xyz", "vec3(0.0)"},
-    {"range", "t1.w", "0.0"},
-    {"direction", "t2.xyz", "vec3(0.0)"},
-    {"cos_outer", "t2.w", "0.0"},
-    {"attenuation", "t3.xyz", "vec3(0.0)"},
-    {"spot_exponent", "t3.w", "0.0"},
-    {"ambient", "t4.xyz", "vec3(0.0)"},
-    {"index", "uint(t4.w)", "0u"},
-    {"cone", "t5.x", "0.0"},
-    {"penumbra", "t5.y", "0.0"},
-    {"cos_inner", "t5.z", "0.0"},
-    {"penumbra_slope", "t5.w", "0.0"},
-    {"cone_scale", "t6.x", "0.0"},
-    {"cone_offset", "t6.y", "0.0"},
-    {"cutoff_slope", "t6.z", "0.0"},
 };
 
 /// The light program of a pass.
@@ -124,10 +100,20 @@ std::vector<size_t> texels_of(const PassProgram& program) {
   std::vector<size_t> out{0, 1};  // the extent and unlit surfaces ask for them too
   for (size_t i = 2; i < kLightTexels; ++i)
     if (std::any_of(std::begin(kLightMembers), std::end(kLightMembers), [&](const LightMember& m) {
-          return m.texel() == i && program.reads_input("light." + std::string(m.name));
+          return m.texel == i && program.reads_input("light." + std::string(m.name));
         }))
       out.push_back(i);
   return out;
+}
+
+/// What a member of Light is made of its texel, "t0.xyz".
+std::string value_of(const LightMember& m) {
+  const std::string value = "t" + std::to_string(m.texel) + '.' + std::string(m.components);
+  return m.made_by.empty() ? value : std::string(m.made_by) + '(' + value + ')';
+}
+std::string unread_of(const LightMember& m) {
+  if (m.name == "type") return "light_type_point";
+  return m.made_by == "uint" ? "0u" : m.components.size() == 3 ? "vec3(0.0)" : "0.0";
 }
 
 /// `Light ts_light_of(int i)`.
@@ -139,8 +125,8 @@ std::string light_of_text(const PassProgram& program) {
             " * i + " + std::to_string(k) + ");\n";
   text += "  Light l;\n";
   for (const LightMember& m : kLightMembers) {
-    const bool there = std::find(texels.begin(), texels.end(), m.texel()) != texels.end();
-    text += "  l." + std::string(m.name) + " = " + std::string(there ? m.value : m.unread) + ";\n";
+    const bool there = std::find(texels.begin(), texels.end(), m.texel) != texels.end();
+    text += "  l." + std::string(m.name) + " = " + (there ? value_of(m) : unread_of(m)) + ";\n";
   }
   return text + "  l.right = l.up = vec3(0.0);\n  l.shadow = l.cookie = -1;\n" +
          "  for (int k = 0; k < 4; ++k) l.user[k] = vec4(0.0);\n  return l;\n}\n";

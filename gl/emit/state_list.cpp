@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "gl/emit/draw_plan.h"
+#include "gl/emit/light_record.h"
 #include "gl/emit/light_text.h"
 #include "gl/emit/post_glsl.h"
 #include "gl/emit/shader_interface.h"
@@ -132,15 +133,8 @@ std::string uniforms(const ShaderTexts& shaders) {
 }
 
 std::string light_layout(const Pipeline& pipeline) {
-  constexpr const char* kTexels[kLightTexels] = {"x, y, z: position; w: type, as in the shader",
-                                                 "r, g, b: linear colour times intensity; a: range",
-                                                 "x, y, z: the way the light travels; w: cos_outer",
-                                                 "k0, k1, k2: attenuation; w: spot_exponent",
-                                                 "r, g, b: its ambient share; w: index",
-                                                 "cone, penumbra, radians; cos_inner; penumbra_slope",
-                                                 "cone_scale, cone_offset, cutoff_slope, 0"};
   std::vector<std::string> texels;
-  for (const size_t i : light_texels(pipeline)) texels.emplace_back(kTexels[i]);
+  for (const size_t i : light_texels(pipeline)) texels.push_back(words_of_texel(i));
   return strings_of(texels);
 }
 

@@ -350,9 +350,7 @@ class FrameLister {
 
   /// The name of the buffer with the indices of a shape, made when it is first drawn.
   std::string index_buffer(LightExtent extent, const LightMesh& shape) {
-    const std::string name = extent == LightExtent::box      ? "indices.box"
-                             : extent == LightExtent::sphere ? "indices.sphere"
-                                                             : "indices.cone";
+    const std::string name = "indices." + std::string(name_of(extent));
     if (!has_buffer(name)) list_.buffers.push_back({name, bytes_of(std::span<const uint32_t>(shape.indices)), false});
     return name;
   }

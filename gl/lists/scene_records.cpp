@@ -6,7 +6,6 @@
 
 #include "gl/emit/light_text.h"
 #include "oracle/matrices.h"
-#include "scenes/light_cone.h"
 #include "scenes/pipeline/transparency.h"
 
 namespace trueshade::oracle {
@@ -160,26 +159,6 @@ std::vector<float> more_uv_texels(const Mesh& mesh) {
   for (size_t set = 1; set < kMaxUvSets; ++set)
     for (size_t v = 0; v < mesh.vertex_count() && !mesh.uv_set(set)[0].empty(); ++v)
       for (size_t k = 0; k < 2; ++k) out[kFloats * v + 4 * (set - 1) + k] = mesh.uv_set(set)[k][v];
-  return out;
-}
-
-std::vector<float> light_records(const Scene& scene, std::span<const size_t> texels) {
-  std::vector<float> out;
-  out.reserve(4 * texels.size() * scene.lights.size());
-  for (size_t i = 0; i < scene.lights.size(); ++i) {
-    const Light& light = scene.lights[i];
-    const LightCone cone(light);
-    const glm::vec4 all[kLightTexels] = {{light.position, float(light.type)},
-                                         {light.color, light.range},
-                                         {light.direction, cone.cos_outer},
-                                         {light.attenuation, light.spot_exponent},
-                                         {light.ambient, float(i)},
-                                         {light.cone_rad, light.penumbra_rad, cone.cos_inner, cone.penumbra_slope},
-                                         {cone.scale, cone.offset, cone.cutoff_slope, 0.0f}};
-    for (const size_t texel : texels)
-      for (int k = 0; k < 4; ++k) out.push_back(all[texel][k]);
-  }
-  if (out.empty()) out.resize(4 * texels.size());
   return out;
 }
 

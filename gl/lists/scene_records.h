@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gl/emit/glsl.h"
+#include "gl/emit/light_record.h"
 #include "scenes/scene.h"
 
 namespace trueshade::oracle {
@@ -50,9 +51,6 @@ std::vector<float> vertex_tangent_texels(const Mesh& mesh);
 
 /// u and v of the sets behind the first, kMaxUvSets - 1 texels a vertex.
 std::vector<float> more_uv_texels(const Mesh& mesh);
-
-/// The light records as the shaders read them, RGBA a texel, light_texels() a light; of no light, zeros for one.
-std::vector<float> light_records(const Scene& scene, std::span<const size_t> texels);
 
 /// Material records as material_text() reads them.
 std::vector<float> material_records(const Scene& scene, const Pipeline& pipeline);

@@ -59,15 +59,15 @@ std::optional<Crossing> ConvexMesh::crossed_by(const Ray& ray) const {
   return crossing;
 }
 
-LightShapes::LightShapes(const LightVolumes& volumes)
-    : culled_(volumes.cull_face),
-      box_(light_mesh(LightExtent::box, volumes.slices, volumes.stacks)),
-      sphere_(light_mesh(LightExtent::sphere, volumes.slices, volumes.stacks)),
-      cone_(light_mesh(LightExtent::cone, volumes.slices, volumes.stacks)) {}
+LightShapes::LightShapes(const LightVolumes& volumes) : culled_(volumes.cull_face) {
+  for (const LightExtent extent : kMeshExtents)
+    meshes_.emplace_back(light_mesh(extent, volumes.slices, volumes.stacks));
+}
 
 int LightShapes::fragments(const Light& light, LightExtent extent, const Ray& ray) const {
   if (!(light.range > 0)) return 0;
-  const std::optional<Crossing> crossing = (*this)[extent].crossed_by(in_unit_mesh(light, extent, ray));
+  const std::optional<Crossing> crossing =
+      meshes_[size_t(extent) - size_t(kMeshExtents[0])].crossed_by(in_unit_mesh(light, extent, ray));
   if (!crossing || culled_ == CullFace::front_and_back) return 0;
   const int front = culled_ != CullFace::front && crossing->enters > 0 ? 1 : 0,
             back = culled_ != CullFace::back && crossing->leaves > 0 ? 1 : 0;

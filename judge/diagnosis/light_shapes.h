@@ -42,11 +42,8 @@ class LightShapes {
   int fragments(const Light& light, LightExtent extent, const Ray& ray) const;
 
  private:
-  const ConvexMesh& operator[](LightExtent extent) const {
-    return extent == LightExtent::box ? box_ : extent == LightExtent::cone ? cone_ : sphere_;
-  }
   CullFace culled_;
-  ConvexMesh box_, sphere_, cone_;
+  std::vector<ConvexMesh> meshes_;  ///< in the order of kMeshExtents
 };
 
 }  // namespace trueshade::oracle

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "scenes/pipeline/pipeline_words.h"
 #include "scenes/trig.h"
 
 namespace trueshade {
@@ -85,15 +86,10 @@ LightMesh light_mesh(LightExtent extent, int slices, int stacks) {
   return mesh;
 }
 
-LightMeshes::LightMeshes(const LightVolumes& v)
-    : slices(v.slices),
-      stacks(v.stacks),
-      box(light_mesh(LightExtent::box, v.slices, v.stacks)),
-      sphere(light_mesh(LightExtent::sphere, v.slices, v.stacks)),
-      cone(light_mesh(LightExtent::cone, v.slices, v.stacks)) {}
+std::string_view name_of(LightExtent extent) { return pipeline_words::kExtents[size_t(extent)]; }
 
-const LightMesh& LightMeshes::operator[](LightExtent extent) const {
-  return extent == LightExtent::box ? box : extent == LightExtent::cone ? cone : sphere;
+LightMeshes::LightMeshes(const LightVolumes& v) : slices(v.slices), stacks(v.stacks) {
+  for (size_t i = 0; i < mesh.size(); ++i) mesh[i] = light_mesh(kMeshExtents[i], v.slices, v.stacks);
 }
 
 LightExtent drawn_extent(const Light& light, const LightVolumes& volumes) {

@@ -7,6 +7,7 @@
 #include "core/format.h"
 #include "core/numeric_profile.h"
 #include "scenes/pipeline/image_view.h"
+#include "scenes/light.h"
 #include "scenes/pipeline/light_model.h"
 #include "scenes/pipeline/light_program.h"
 #include "scenes/pipeline/post_chain.h"

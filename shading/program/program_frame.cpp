@@ -13,7 +13,7 @@
 #include "programs/building/specialised.h"
 #include "programs/front/light_program.h"
 #include "raster/view.h"
-#include "scenes/light_cone.h"
+#include "scenes/pipeline/light_values.h"
 
 namespace trueshade {
 namespace {
@@ -71,30 +71,6 @@ std::optional<uint32_t> of_view(std::string_view name, const Scene& scene, const
   if (name == "view.time") return bits_of(float(scene.time));
   if (name == "view.frame") return frame_at(scene);
   return of_matrices(name, camera, pipeline);
-}
-
-uint32_t of_light(std::string_view name, const Light& light, uint32_t index) {
-  const int c = component_of(name);
-  const auto is = [name](std::string_view field) { return starts(name, field); };
-  if (name == "light.type") return uint32_t(light.type);
-  if (name == "light.index") return index;
-  if (is("light.position")) return bits_of(light.position[c]);
-  if (name == "light.range") return bits_of(light.range);
-  if (is("light.direction")) return bits_of(light.direction[c]);
-  if (is("light.color")) return bits_of(light.color[c]);
-  if (is("light.attenuation")) return bits_of(light.attenuation[c]);
-  if (is("light.ambient")) return bits_of(light.ambient[c]);
-  if (name == "light.cone") return bits_of(light.cone_rad);
-  if (name == "light.penumbra") return bits_of(light.penumbra_rad);
-  if (name == "light.cos_inner") return bits_of(LightCone(light).cos_inner);
-  if (name == "light.cos_outer") return bits_of(LightCone(light).cos_outer);
-  if (name == "light.cone_scale") return bits_of(LightCone(light).scale);
-  if (name == "light.cone_offset") return bits_of(LightCone(light).offset);
-  if (name == "light.spot_exponent") return bits_of(light.spot_exponent);
-  if (name == "light.penumbra_slope") return bits_of(LightCone(light).penumbra_slope);
-  if (name == "light.cutoff_slope") return bits_of(LightCone(light).cutoff_slope);
-  if (name == "light.shadow" || name == "light.cookie") return uint32_t(-1);
-  return 0;  // right, up: a light without an area
 }
 
 /// A parameter, whose value is a number, as its type has it.
@@ -177,10 +153,10 @@ void ProgramFrame::set_lights(const Scene& scene) {
   light_planes_.resize(stage.inputs.size() * blocks);
   for (size_t i = 0; i < stage.inputs.size(); ++i) {
     float* const plane = light_planes_[i * blocks].lane;
-    const std::string& name = executable_->program.inputs[stage.inputs[i]].name;
+    const LightValue value = light_value(executable_->program.inputs[stage.inputs[i]].name);
     std::fill_n(plane, blocks * programs::kBlockLanes, 0.0f);
     for (size_t k = 0; k < scene.lights.size(); ++k) {
-      const uint32_t bits = of_light(name, scene.lights[k], uint32_t(k));
+      const uint32_t bits = value.of(scene.lights[k], uint32_t(k));
       std::memcpy(plane + k, &bits, sizeof bits);
     }
     lights_->set_input(i, plane);
