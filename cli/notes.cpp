@@ -10,6 +10,7 @@
 #include "cli/json_text.h"
 #include "cli/terminal.h"
 #include "scenes/files/content/faults.h"
+#include "scenes/pipeline/light_mesh.h"
 #include "scenes/pipeline/presets.h"
 #include "scenes/timeline_end.h"
 #include "shading/output/view_image.h"
@@ -77,7 +78,7 @@ std::string eye_in_boxes_line(const Scene& scene) {
 /// Whether the mesh of a light in deferred-volumes holds the eye. Tests the light's extent, which the mesh nearly
 /// fills.
 bool volume_holds_eye(const Light& light, const LightVolumes& volumes, const glm::vec3& eye) {
-  const LightExtent extent = stated_extent(light.type, volumes);
+  const LightExtent extent = drawn_extent(light, volumes);
   if (!has_box(light)) return false;
   const glm::vec3 from = eye - light.position;
   const float along = glm::dot(from, light.direction), distance = glm::length(from);
@@ -89,6 +90,8 @@ bool volume_holds_eye(const Light& light, const LightVolumes& volumes, const glm
     case LightExtent::cone:
       return along > 0.0f && along < light.range &&
              along > distance * std::cos(std::min(light.cone_rad + light.penumbra_rad, 1.57f));
+    case LightExtent::hemisphere:
+      return along > 0.0f && distance < light.range;
     default:
       return false;
   }

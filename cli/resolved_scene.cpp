@@ -186,7 +186,6 @@ std::string texture_json(const Texture& texture, ResolvedArrays& arrays) {
 
 // --- Lights --------------------------------------------------------------------------------------------------------
 
-
 /// What the light model makes of the light: section 8 of docs/arithmetic.md names the numbers of cones.
 std::string light_in_model_json(const LightRow& row, const LightModel& model) {
   JsonObject json;
@@ -210,6 +209,7 @@ std::string light_json(const Light& light, const LightRow& row, const Pipeline& 
   json.put_raw("range", json_of_float(light.range)).put_raw("attenuation", json_of_vector(light.attenuation));
   json.put_raw("cone_rad", json_of_float(light.cone_rad)).put_raw("penumbra_rad", json_of_float(light.penumbra_rad));
   json.put_raw("spot_exponent", json_of_float(light.spot_exponent)).put_raw("ambient", json_of_vector(light.ambient));
+  if (has_area(light.type)) json.put_raw("right", json_of_vector(light.right)).put_raw("up", json_of_vector(light.up));
   json.put_raw("in_model", light_in_model_json(row, pipeline.light_model)).put("extent", name_of(extent));
   if (pipeline.strategy != Strategy::deferred_volumes || !is_mesh(extent)) return json.text();
   std::vector<glm::vec3> vertices(meshes[extent].unit.size());
@@ -227,8 +227,7 @@ std::string light_mesh_json(const LightMesh& mesh) {
 
 std::string light_meshes_json(const LightMeshes& meshes) {
   JsonObject json;
-  for (const LightExtent extent : kMeshExtents)
-    json.put_raw(name_of(extent), light_mesh_json(meshes[extent]));
+  for (const LightExtent extent : kMeshExtents) json.put_raw(name_of(extent), light_mesh_json(meshes[extent]));
   return json.text();
 }
 

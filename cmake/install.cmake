@@ -25,8 +25,7 @@ install(FILES ${PROJECT_SOURCE_DIR}/scenes/schemas/scene.schema.json ${PROJECT_S
               ${PROJECT_SOURCE_DIR}/cli/batch/jobs.schema.json
         DESTINATION ${CMAKE_INSTALL_DATADIR}/trueshade COMPONENT command)
 
-file(GLOB light_models CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scenes/light_models/*.glsl)
-install(FILES ${light_models} DESTINATION ${CMAKE_INSTALL_DATADIR}/trueshade/light_models COMPONENT command)
+install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/light_models/ DESTINATION ${CMAKE_INSTALL_DATADIR}/trueshade/light_models COMPONENT command)
 
 install(EXPORT trueshade NAMESPACE trueshade:: FILE trueshadeTargets.cmake DESTINATION ${config_dir} COMPONENT dev)
 install(EXPORT trueshade_image_io NAMESPACE trueshade:: FILE trueshadeImageIoTargets.cmake DESTINATION ${config_dir} COMPONENT dev)

@@ -122,6 +122,9 @@ class SceneHasher {
     add(light.attenuation);
     add(light.cone_rad);
     add(light.penumbra_rad);
+    if (!has_area(light.type)) return;
+    add(light.right);
+    add(light.up);
   }
 
   /// What scenes of the first layout did not have: absent where it is the default, else behind its place.

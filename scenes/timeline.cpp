@@ -137,6 +137,12 @@ glm::vec3 position_at(const Orbit& orbit, double time) {
   return position;
 }
 
+void aim(Light& light) {
+  const FpScope fp;
+  const glm::dvec3 way = cross(glm::dvec3(light.up), glm::dvec3(light.right));
+  if (way != glm::dvec3(0.0)) light.direction = glm::vec3(unit(way));
+}
+
 void set_property(Light& light, LightProperty property, const glm::dvec4& value) {
   const FpScope fp;
   switch (property) {
@@ -170,7 +176,17 @@ void set_property(Light& light, LightProperty property, const glm::dvec4& value)
     case LightProperty::spot_exponent:
       light.spot_exponent = float(value.x);
       break;
+    case LightProperty::radius:
+      (light.type == LightType::tube ? light.up.x : light.right.x) = float(value.x);
+      break;
+    case LightProperty::right:
+      light.right = glm::vec3(value);
+      break;
+    case LightProperty::up:
+      light.up = glm::vec3(value);
+      break;
   }
+  if (has_area(light.type) && row_of(light.type).is_aimed && property >= LightProperty::right) aim(light);
 }
 
 void set_property(Camera& camera, CameraProperty property, const glm::dvec4& value) {

@@ -128,7 +128,10 @@ enum class LightProperty : uint8_t {
   attenuation,
   cone,
   penumbra,
-  spot_exponent
+  spot_exponent,
+  radius,
+  right,
+  up
 };
 
 /// A property of a light that changes.
@@ -184,6 +187,8 @@ struct Timeline {
 struct Light;
 struct Camera;
 
+/// Gives a rectangle or a disk the direction of its extents.
+void aim(Light& light);
 /// Sets one property as a scene file does: an intensity multiplies, angles are in radians.
 void set_property(Light& light, LightProperty property, const glm::dvec4& value);
 /// The same of the camera.

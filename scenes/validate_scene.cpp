@@ -153,6 +153,30 @@ bool is_unit(const glm::vec3& v) {
   return length2 > 0.9999 && length2 < 1.0001;
 }
 
+/// Whether unit vectors are at right angles, as far as floats of them can be.
+bool is_right_angle(double cosine) { return std::fabs(cosine) <= 1e-4; }
+
+void check_area(const Light& light, const Part& part) {
+  part.require(within(light.right, -kMostReach, kMostReach) && within(light.up, -kMostReach, kMostReach),
+               "the extents are not finite or over 1e18", "finite numbers");
+  const glm::dvec3 right(light.right), up(light.up);
+  if (light.type == LightType::sphere || light.type == LightType::tube) {
+    part.require(light.type == LightType::sphere ? light.right.x > 0.0f : light.up.x > 0.0f,
+                 "the radius is not above 0", "a radius above 0");
+    part.require(right != glm::dvec3(0.0), "right has no length", "half of the tube's axis");
+    return;
+  }
+  const double sides = std::sqrt(dot(right, right) * dot(up, up));
+  part.require(sides > 0.0 && std::isfinite(sides), "right or up has no length", "two half extents");
+  part.require(is_right_angle(dot(right, up) / sides), "right and up are not at right angles",
+               "up at right angles to right");
+  part.require(light.type != LightType::disk || std::fabs(dot(right, right) / dot(up, up) - 1.0) <= 1e-4,
+               "right and up of the disk are not of one length", "two radii");
+  const glm::dvec3 facing = cross(up, right) / sides;
+  part.require(dot(facing, glm::dvec3(light.direction)) > 0.999, "the direction is not that of cross(up, right)",
+               "the unit vector of cross(up, right)");
+}
+
 void check_light(const Light& light, const Part& part) {
   part.require(within(light.color, 0.0f, kMostReach), "the colour is negative, over 1e18 or no number",
                "each channel in [0, 1e18]");
@@ -167,6 +191,7 @@ void check_light(const Light& light, const Part& part) {
   part.require(light.range > 0.0f, "the range is not above 0", "above 0, or infinite");
   part.require(within(light.attenuation, 0.0f, kMostReach), "the attenuation is negative, over 1e18 or no number",
                "each in [0, 1e18]");
+  if (has_area(light.type)) check_area(light, part);
   if (light.type != LightType::spot) return;
   part.require(light.cone_rad >= 0.0f && light.penumbra_rad >= 0.0f && light.cone_rad + light.penumbra_rad <= 3.1416f,
                "cone and penumbra are out of range", "each at least 0, their sum at most pi");

@@ -14,6 +14,7 @@
 #include "core/threads/parallel_for.h"
 #include "raster/clusters/clusters.h"
 #include "raster/view.h"
+#include "scenes/pipeline/program_inputs.h"
 #include "shading/draw_frame.h"
 #include "shading/frame_plan.h"
 #include "shading/frame_tables.h"
@@ -119,6 +120,7 @@ Frame draw_surfaces(const PreparedScene& prepared, const Pipeline& asked_for, co
   if (given != nullptr && plan.program != nullptr)
     check_fields(*given, plan.program->reads(), plan.program->has_unlit(), pipeline);
   const int threads = plan.execution.threads;
+  check_lights(scene.lights, pipeline);
   check_memory(plan, pipeline, planes);
   wake_threads(threads);
   const SimdScope simd(plan.execution.simd);

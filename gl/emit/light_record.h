@@ -24,6 +24,8 @@ inline constexpr LightMember kLightMembers[] = {
     {"ambient", 4, "xyz"},    {"index", 4, "w", "uint"},      {"cone", 5, "x"},          {"penumbra", 5, "y"},
     {"cos_inner", 5, "z"},    {"penumbra_slope", 5, "w"},     {"cone_scale", 6, "x"},    {"cone_offset", 6, "y"},
     {"cutoff_slope", 6, "z"},
+    {"right", 7, "xyz"},
+    {"up", 8, "xyz"},
 };
 
 /// Texels that a light may have; light_texels() says which of them it has.

@@ -128,7 +128,7 @@ std::string light_of_text(const PassProgram& program) {
     const bool there = std::find(texels.begin(), texels.end(), m.texel) != texels.end();
     text += "  l." + std::string(m.name) + " = " + (there ? value_of(m) : unread_of(m)) + ";\n";
   }
-  return text + "  l.right = l.up = vec3(0.0);\n  l.shadow = l.cookie = -1;\n" +
+  return text + "  l.shadow = l.cookie = -1;\n" +
          "  for (int k = 0; k < 4; ++k) l.user[k] = vec4(0.0);\n  return l;\n}\n";
 }
 

@@ -38,6 +38,7 @@ void add_program_values(const Scene& scene, const Pipeline& pipeline, std::vecto
   const std::shared_ptr<const LightText> text = light_text_of(pipeline);
   if (text == nullptr) return;
   check_camera(scene.camera, pipeline.light_program.file, text->outline.inputs);
+  check_lights(scene.lights, pipeline.light_program.file, text->outline.inputs);
   const bool is_matrix = scene.camera.clip_from_world.has_value();
   const Matrix4 lens = lens_matrix(scene.camera, pipeline.geometry, pipeline.width, pipeline.height);
   out.push_back({"view_from_world", rows_of(is_matrix ? Matrix4{} : view_matrix(scene.camera))});
@@ -50,6 +51,7 @@ void add_program_values(const Scene& scene, const Pipeline& pipeline, std::vecto
 }  // namespace
 
 std::vector<NamedValue> frame_values(const Scene& scene, const Pipeline& pipeline, int shift_x, int shift_y) {
+  check_lights(scene.lights, pipeline);
   const Matrix4 clip = projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height);
   const Matrix4 inverse = inverse_of(clip);
   const auto axis = view_axis(clip);

@@ -215,6 +215,7 @@ GlslOptions scene_options(const Scene& scene) {
   options.double_sided = has_double_sided(scene);
   options.unlit = any_material(scene, [](const Material& m) { return m.unlit; });
   options.transparent = has_transparent(scene);
+  for (const Light& light : scene.lights) options.light_types |= 1u << uint32_t(light.type);
   return options;
 }
 

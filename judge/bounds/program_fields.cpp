@@ -59,7 +59,6 @@ Interval slope(const Light& l, double lit) {
   return {1 / width, Interval::rounded_once(1 / (width + off)).low, Interval::rounded_once(1 / (width - off)).high,
           false};
 }
-Interval nothing(const Light&, uint32_t, size_t) { return Interval::of(0); }
 Interval no_texture(const Light&, uint32_t, size_t) { return Interval::of(-1); }
 
 /// docs/arithmetic.md section 8 for the numbers of cones.
@@ -82,8 +81,8 @@ constexpr Row<LightField> kLight[] = {
     {"spot_exponent", [](L l, uint32_t, size_t) { return Interval::of(double(l.spot_exponent)); }},
     {"penumbra_slope", [](L l, uint32_t, size_t) { return slope(l, std::cos(double(l.cone_rad))); }},
     {"cutoff_slope", [](L l, uint32_t, size_t) { return slope(l, outer_cosine(l) * 0.9 + 0.1); }},
-    {"right", nothing},
-    {"up", nothing},
+    {"right", [](L l, uint32_t, size_t c) { return Interval::of(double(l.right[int(c)])); }},
+    {"up", [](L l, uint32_t, size_t c) { return Interval::of(double(l.up[int(c)])); }},
     {"shadow", no_texture},
     {"cookie", no_texture}};
 

@@ -13,11 +13,13 @@ Triple3 vertex(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 Ray in_unit_mesh(const Light& light, LightExtent extent, const Ray& ray) {
   const double range = double(light.range);
   const Triple3 from = minus(ray.origin, triple(light.position));
-  if (extent != LightExtent::cone) return {times(from, 1 / range), times(ray.direction, 1 / range)};
+  if (extent != LightExtent::cone && extent != LightExtent::hemisphere)
+    return {times(from, 1 / range), times(ray.direction, 1 / range)};
   const Triple3 along = unit(triple(light.direction));
   const double x = std::fabs(along[0]), y = std::fabs(along[1]), z = std::fabs(along[2]);
   const Triple3 least = x <= y && x <= z ? Triple3{1, 0, 0} : y <= z ? Triple3{0, 1, 0} : Triple3{0, 0, 1};
-  const double radius = range * std::tan(double(light.cone_rad) + double(light.penumbra_rad));
+  const double outer = double(light.cone_rad) + double(light.penumbra_rad);
+  const double radius = extent == LightExtent::cone ? range * std::tan(outer) : range;
   const Triple3 across = unit(cross(least, along)), up = cross(along, across);
   const auto turned = [&](const Triple3& v) {
     return Triple3{inner(across, v) / radius, inner(up, v) / radius, inner(along, v) / range};

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "judge/bounds/program_bounds.h"
 #include "judge/stages/transparent_layers.h"
+#include "scenes/pipeline/program_inputs.h"
 #include "scenes/pipeline/transparency.h"
 
 namespace trueshade::oracle {
@@ -167,6 +168,7 @@ std::string Verdict::material_line() const {
 
 Verdict validate_capture(const Scene& scene, const Pipeline& asked, const Capture& capture,
                          const ValidateOptions& options) {
+  check_lights(scene.lights, asked);
   Pipeline pipeline = with_planes_that_program_reads(asked);
   pipeline.gbuffer = surface_planes(pipeline);  // forward strategies are judged from float planes of the same surfaces
   Validation validation(scene, pipeline, capture, options);

@@ -259,10 +259,20 @@ float range_of(double range) {
   return float(range);
 }
 
+void set_area(Light& light, double radius, const py::object& right, const py::object& up) {
+  const bool is_round = light.type == LightType::sphere || light.type == LightType::tube;
+  const auto set = [&light](LightProperty property, const py::object& value, const char* name) {
+    set_property(light, property, glm::dvec4(glm::dvec3(place_of(value, name)), 0.0));
+  };
+  if (light.type != LightType::sphere) set(LightProperty::right, right, "right");
+  if (!is_round) set(LightProperty::up, up, "up");
+  if (is_round) set_property(light, LightProperty::radius, glm::dvec4(number_within(radius, "radius", 1e-18, 1e18)));
+}
+
 uint32_t add_light(PythonScene& to, const std::string& type, const py::object& position, const py::object& direction,
                    const py::object& color, double intensity, const std::optional<double>& range,
                    const py::object& attenuation, double cone_deg, double penumbra_deg, const py::object& ambient,
-                   double spot_exponent) {
+                   double spot_exponent, double radius, const py::object& right, const py::object& up) {
   Light light;
   light.type = light_type_of(type);
   light.position = place_of(position, "position");
@@ -274,6 +284,7 @@ uint32_t add_light(PythonScene& to, const std::string& type, const py::object& p
   light.penumbra_rad = float(number_within(penumbra_deg, "penumbra_deg", 0, 180) * (kPi / 180.0));
   light.ambient = color_of(ambient, "ambient");
   light.spot_exponent = float(number_within(spot_exponent, "spot_exponent", 0, 8192));
+  if (has_area(light.type)) set_area(light, radius, right, up);
   Scene& scene = to.changeable();
   scene.lights.push_back(light);
   return uint32_t(scene.lights.size() - 1);
@@ -400,7 +411,7 @@ void add_scene(py::module_& module) {
       .def("add_light", &add_light, doc_of("Scene.add_light"), "type"_a = "point", py::kw_only(), "position"_a = zero,
            "direction"_a = py::make_tuple(0.0, 0.0, -1.0), "color"_a = one, "intensity"_a = 1.0, "range"_a = py::none(),
            "attenuation"_a = py::make_tuple(1.0, 0.0, 0.0), "cone_deg"_a = 180.0, "penumbra_deg"_a = 0.0,
-           "ambient"_a = zero, "spot_exponent"_a = 0.0)
+           "ambient"_a = zero, "spot_exponent"_a = 0.0, "radius"_a = 0.0, "right"_a = zero, "up"_a = zero)
       .def("add_point_lights", &add_point_lights, doc_of("Scene.add_point_lights"), "positions"_a, "colors"_a,
            "ranges"_a)
       .def("set_camera", &set_camera, doc_of("Scene.set_camera"), "eye"_a, "target"_a = py::none(), py::kw_only(),

@@ -156,16 +156,22 @@ class Scene:
         penumbra_deg: float = 0.0,
         ambient: _Vector3 = (0.0, 0.0, 0.0),
         spot_exponent: float = 0.0,
+        radius: float = 0.0,
+        right: _Vector3 = (0.0, 0.0, 0.0),
+        up: _Vector3 = (0.0, 0.0, 0.0),
     ) -> int:
         """Adds a light and returns its index, from 0. Lights are summed in this order.
 
-        type: ambient, directional, point or spot. position: world space. direction: the way the light travels, world
+        type: ambient, directional, point, spot, sphere, tube, rectangle or disk. position: world space. direction: the way the light travels, world
             space, of any length but 0.
         color: linear RGB, each 0 or more, times intensity. ambient: the light's share of ambient light, linear RGB.
         range: scene units, above 0, from which on there is no light; None is infinite.
         attenuation: k0, k1 [1/unit], k2 [1/unit^2] of presets that divide by k0 + k1 d + k2 d^2.
         cone_deg: half angle of the fully lit cone of a spot, 0 to 180; penumbra_deg: the angle beyond, over which the
             light fades to 0. spot_exponent: of the cosine to the axis, 0 to 8192.
+        radius: of spheres and tubes, scene units, above 0. right: of tubes, half of the axis; of rectangles and disks,
+            with up, half extents at right angles, world space. These shine to the side of cross(up, right), whatever
+            direction says. Lights with an area need a light model that has them, as `area` and `area-lambert` do.
         Raises Error for values outside these ranges.
         """
     def add_point_lights(

@@ -20,6 +20,12 @@ constexpr std::string_view kPointKeys[] = {"type",  "position",    "color", "int
 constexpr std::string_view kSpotKeys[] = {"type",          "position", "direction",     "color",    "intensity",
                                           "ambient",       "range",    "attenuation",   "cone_deg", "penumbra_deg",
                                           "spot_exponent", "steps",    "interpolation", "repeat"};
+constexpr std::string_view kBallKeys[] = {"type",  "position", "radius",        "color", "intensity",
+                                          "range", "steps",    "interpolation", "repeat"};
+constexpr std::string_view kTubeKeys[] = {"type",      "position", "right", "radius",        "color",
+                                          "intensity", "range",    "steps", "interpolation", "repeat"};
+constexpr std::string_view kFlatKeys[] = {"type",  "position", "right",         "up",    "color", "intensity",
+                                          "range", "steps",    "interpolation", "repeat"};
 constexpr std::string_view kAmbientStepKeys[] = {"time", "color", "intensity"};
 constexpr std::string_view kDirectionalStepKeys[] = {"time", "direction", "color", "intensity", "ambient"};
 constexpr std::string_view kPointStepKeys[] = {"time",    "position", "color",      "intensity",
@@ -27,6 +33,9 @@ constexpr std::string_view kPointStepKeys[] = {"time",    "position", "color",  
 constexpr std::string_view kSpotStepKeys[] = {"time",      "position",     "direction",    "color",
                                               "intensity", "ambient",      "range",        "attenuation",
                                               "cone_deg",  "penumbra_deg", "spot_exponent"};
+constexpr std::string_view kBallStepKeys[] = {"time", "position", "radius", "color", "intensity", "range"};
+constexpr std::string_view kTubeStepKeys[] = {"time", "position", "right", "radius", "color", "intensity", "range"};
+constexpr std::string_view kFlatStepKeys[] = {"time", "position", "right", "up", "color", "intensity", "range"};
 constexpr std::string_view kRingKeys[] = {"type",  "count", "center",    "radius", "height",      "colors",
                                           "noise", "seed",  "intensity", "range",  "attenuation", "turn_s"};
 constexpr std::string_view kBoxKeys[] = {"type", "count",     "from",  "to",          "colors", "noise",
@@ -44,7 +53,11 @@ constexpr LightObject kLightObjects[] = {
      {name_of(LightType::directional), kDirectionalKeys},
      {"directional_step", kDirectionalStepKeys}},
     {LightType::point, {name_of(LightType::point), kPointKeys}, {"point_step", kPointStepKeys}},
-    {LightType::spot, {name_of(LightType::spot), kSpotKeys}, {"spot_step", kSpotStepKeys}}};
+    {LightType::spot, {name_of(LightType::spot), kSpotKeys}, {"spot_step", kSpotStepKeys}},
+    {LightType::sphere, {name_of(LightType::sphere), kBallKeys}, {"sphere_step", kBallStepKeys}},
+    {LightType::tube, {name_of(LightType::tube), kTubeKeys}, {"tube_step", kTubeStepKeys}},
+    {LightType::rectangle, {name_of(LightType::rectangle), kFlatKeys}, {"rectangle_step", kFlatStepKeys}},
+    {LightType::disk, {name_of(LightType::disk), kFlatKeys}, {"disk_step", kFlatStepKeys}}};
 
 /// What stands for many lights, by the value of the key `type`.
 constexpr json::ObjectKeys kRing{"ring", kRingKeys}, kBox{"box", kBoxKeys}, kBuffers{"buffers", kBuffersKeys};
@@ -74,7 +87,10 @@ constexpr LightValue kValues[] = {
     {"attenuation", LightProperty::attenuation, Kind::three_numbers, 0.0, json::kLargest, false},
     {"cone_deg", LightProperty::cone, Kind::degrees, 0.0, 180.0, true},
     {"penumbra_deg", LightProperty::penumbra, Kind::degrees, 0.0, 180.0, false},
-    {"spot_exponent", LightProperty::spot_exponent, Kind::number, 0.0, 8192.0, false}};
+    {"spot_exponent", LightProperty::spot_exponent, Kind::number, 0.0, 8192.0, false},
+    {"radius", LightProperty::radius, Kind::number, json::kSmallest, json::kLargest, true},
+    {"right", LightProperty::right, Kind::three_numbers, -json::kLargest, json::kLargest, true},
+    {"up", LightProperty::up, Kind::three_numbers, -json::kLargest, json::kLargest, true}};
 
 ValueReader reader_of(const LightValue& value) {
   if (value.kind == Kind::degrees) return degrees(value.key, value.least, value.most);

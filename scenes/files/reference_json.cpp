@@ -53,13 +53,14 @@ std::optional<SceneReference> reference_from_json(const json::Node& root, const 
       if (const auto alone = root.find(key)) alone->fail("it stands without \"scene\"", "name the scene that it is of");
     return std::nullopt;
   }
-  for (const char* key : {"textures", "materials", "objects", "lights"})
+  for (const char* key : {"textures", "materials", "objects"})
     if (const auto own = root.find(key))
       own->fail("it stands beside \"scene\", which has its own", "leave one of them out");
   SceneReference reference;
   reference.scene = referred_path(*scene, path, limits);
   if (const auto time = root.find("time")) reference.time = time->number(-kLatestTime, kLatestTime);
   reference.both_faces = lights_both_faces(root);
+  if (const auto lights = root.find("lights")) reference.lights = json::text_of(lights->value());
   const auto changes = root.find("light_changes");
   if (!changes) return reference;
   const size_t count = changes->array(0, SIZE_MAX).size();
@@ -76,10 +77,16 @@ std::optional<SceneReference> reference_from_json(const json::Node& root, const 
   return reference;
 }
 
-Scene scene_of_reference(const SceneReference& reference, const json::Node& root, const SceneLoader& load) {
+Scene scene_of_reference(const SceneReference& reference, const json::Node& root, const SceneLoader& load,
+                         const std::function<void(Scene&)>& read_lights) {
   if (!load)
     root.member("scene").fail("another scene refers to this one, which refers to one more", "refer to the last one");
   Scene scene = load(reference.scene);
+  if (!reference.lights.empty()) {
+    scene.lights.clear(), scene.lights_of_ours = false;
+    scene.timeline.lights.clear(), scene.timeline.orbits.clear(), scene.timeline.node_lights.clear();
+    read_lights(scene);
+  }
   for (size_t i = 0; i < reference.changes.size(); ++i)
     if (reference.changes[i].light >= scene.lights.size())
       root.member("light_changes")

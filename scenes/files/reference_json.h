@@ -20,7 +20,8 @@ std::vector<json::ObjectKeys> reference_json_keys();
 /// The part of a scene file that another one stands for.
 struct SceneReference {
   std::string scene;                 ///< as load_scene() takes it; a file by its path from here
-  std::vector<LightChange> changes;  ///< in their order
+  std::string lights;                ///< the text of lights in place of the other scene's; empty: none
+  std::vector<LightChange> changes;  ///< of these, in their order
   std::optional<double> time;        ///< the other scene as it stands then, without what moves
   bool both_faces = false;           ///< its materials are lit on both faces
 };
@@ -34,7 +35,9 @@ std::optional<SceneReference> reference_from_json(const json::Node& root, const 
 
 /// The scene that is referred to, with the changes and at the time of the reference. Its camera, clear colour, frames a
 /// second and pipeline are for the caller to replace.
-Scene scene_of_reference(const SceneReference& reference, const json::Node& root, const SceneLoader& load);
+///   read_lights: appends those under the root's key "lights"
+Scene scene_of_reference(const SceneReference& reference, const json::Node& root, const SceneLoader& load,
+                         const std::function<void(Scene&)>& read_lights);
 
 /// The reference of a scene file's text; nothing where it has none, or is no scene file. Throws nothing.
 std::optional<SceneReference> reference_of_text(std::string_view text, const std::string& path,

@@ -92,7 +92,10 @@ Scene scene_from_json(std::string_view text, const std::string& path, const Scen
   if (const auto schema = root.find("$schema")) schema->string();  // for editors
   root.member("version").integer(1, 1);
   const auto reference = reference_from_json(root, path, limits);
-  Scene scene = reference ? scene_of_reference(*reference, root, load) : Scene();
+  const auto read_own_lights = [&](Scene& to) {
+    if (const auto lights = root.find("lights")) read_lights(*lights, to, path, limits, decode);
+  };
+  Scene scene = reference ? scene_of_reference(*reference, root, load, read_own_lights) : Scene();
   scene.spec = path;
   scene.is_model = false;
   if (const auto pipeline = root.find("pipeline")) {
@@ -103,7 +106,7 @@ Scene scene_from_json(std::string_view text, const std::string& path, const Scen
   if (const auto fps = root.find("fps")) scene.timeline.fps = fps->number(0.001, 1e6);
   if (const auto clear = root.find("clear")) scene.clear = clear->color();
   if (!reference) {
-    if (const auto lights = root.find("lights")) read_lights(*lights, scene, path, limits, decode);
+    read_own_lights(scene);
     ObjectReader objects(scene, path, limits, decode);
     if (const auto textures = root.find("textures")) objects.read_textures(*textures);
     if (const auto materials = root.find("materials")) objects.read_materials(*materials);

@@ -63,6 +63,29 @@ void add_cone(LightMesh& mesh, int slices) {
   }
 }
 
+/// The pole on the z axis, circles of `slices` vertices down to z = 0, and the middle of the base.
+void add_hemisphere(LightMesh& mesh, int slices, int stacks) {
+  const int circles = (stacks + 1) / 2;
+  mesh.unit.emplace_back(0.0, 0.0, 1.0);
+  for (int i = 1; i <= circles; ++i) {
+    const double polar = 0.5 * kPi * double(i) / double(circles), radius = sine(polar);
+    for (int k = 0; k < slices; ++k) {
+      const double turn = 2.0 * kPi * double(k) / double(slices);
+      mesh.unit.emplace_back(radius * cosine(turn), radius * sine(turn), i == circles ? 0.0 : cosine(polar));
+    }
+  }
+  const auto middle = uint32_t(mesh.unit.size());
+  mesh.unit.emplace_back(0.0, 0.0, 0.0);
+  const auto at = [&](int circle, int k) { return uint32_t(1 + (circle - 1) * slices + k % slices); };
+  for (int k = 0; k < slices; ++k) add_triangle(mesh, 0, at(1, k), at(1, k + 1));
+  for (int i = 1; i < circles; ++i)
+    for (int k = 0; k < slices; ++k) {
+      add_triangle(mesh, at(i, k), at(i + 1, k), at(i + 1, k + 1));
+      add_triangle(mesh, at(i, k), at(i + 1, k + 1), at(i, k + 1));
+    }
+  for (int k = 0; k < slices; ++k) add_triangle(mesh, middle, at(circles, k + 1), at(circles, k));
+}
+
 void find_neighbours(LightMesh& mesh) {
   const auto vertices = uint32_t(mesh.unit.size());
   const auto end_of = [&](size_t i) { return mesh.indices[i % 3 == 2 ? i - 2 : i + 1]; };
@@ -82,11 +105,14 @@ LightMesh light_mesh(LightExtent extent, int slices, int stacks) {
   if (extent == LightExtent::box) add_box(mesh);
   if (extent == LightExtent::sphere) add_sphere(mesh, slices, stacks);
   if (extent == LightExtent::cone) add_cone(mesh, slices);
+  if (extent == LightExtent::hemisphere) add_hemisphere(mesh, slices, stacks);
   find_neighbours(mesh);
   return mesh;
 }
 
-std::string_view name_of(LightExtent extent) { return pipeline_words::kExtents[size_t(extent)]; }
+std::string_view name_of(LightExtent extent) {
+  return extent == LightExtent::hemisphere ? "hemisphere" : pipeline_words::kExtents[size_t(extent)];
+}
 
 LightMeshes::LightMeshes(const LightVolumes& v) : slices(v.slices), stacks(v.stacks) {
   for (size_t i = 0; i < mesh.size(); ++i) mesh[i] = light_mesh(kMeshExtents[i], v.slices, v.stacks);
@@ -96,6 +122,7 @@ LightExtent drawn_extent(const Light& light, const LightVolumes& volumes) {
   if (!is_placed(light.type) || std::isinf(light.range)) return LightExtent::unbounded;
   const LightExtent extent = stated_extent(light.type, volumes);
   if (extent != LightExtent::cone) return extent;
+  if (has_area(light.type) && row_of(light.type).is_aimed) return LightExtent::hemisphere;
   return light.type == LightType::spot && outer_rad(light) <= kWidestCone_rad ? extent : LightExtent::sphere;
 }
 
@@ -103,13 +130,13 @@ void light_vertices(const LightMesh& mesh, const Light& light, std::span<glm::ve
   const glm::dvec3 place(light.position);
   const auto range = double(light.range);
   glm::dvec3 axis[3] = {{range, 0.0, 0.0}, {0.0, range, 0.0}, {0.0, 0.0, range}};  // of the unit mesh
-  if (mesh.extent == LightExtent::cone) {
+  if (mesh.extent == LightExtent::cone || mesh.extent == LightExtent::hemisphere) {
     const glm::dvec3 along = unit(glm::dvec3(light.direction));
     const double x = std::abs(along.x), y = std::abs(along.y), z = std::abs(along.z);
     const glm::dvec3 least = x <= y && x <= z ? glm::dvec3(1.0, 0.0, 0.0)
                              : y <= z         ? glm::dvec3(0.0, 1.0, 0.0)
                                               : glm::dvec3(0.0, 0.0, 1.0);
-    const double radius = range * tangent(outer_rad(light));
+    const double radius = mesh.extent == LightExtent::cone ? range * tangent(outer_rad(light)) : range;
     const glm::dvec3 across = unit(cross(least, along));
     axis[0] = across * radius;
     axis[1] = cross(along, across) * radius;

@@ -14,14 +14,15 @@
 namespace trueshade {
 
 /// The extents that are meshes.
-inline constexpr LightExtent kMeshExtents[] = {LightExtent::box, LightExtent::sphere, LightExtent::cone};
+inline constexpr LightExtent kMeshExtents[] = {LightExtent::box, LightExtent::sphere, LightExtent::cone,
+                                               LightExtent::hemisphere};
 constexpr bool is_mesh(LightExtent extent) { return extent >= LightExtent::box; }
 /// As files and all that is printed have it.
 std::string_view name_of(LightExtent extent);
 
 /// What the lights of one mesh have in common: a closed surface, its triangles counter-clockwise seen from outside.
 struct LightMesh {
-  LightExtent extent;            ///< box, sphere or cone
+  LightExtent extent;            ///< one of kMeshExtents
   std::vector<glm::dvec3> unit;  ///< vertices for a light at the origin with range 1 that shines along z
   std::vector<uint32_t> indices;
   std::vector<uint32_t> neighbour;  ///< triangle beyond the edge from corner i to the next of the same triangle

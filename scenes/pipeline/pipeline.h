@@ -55,7 +55,8 @@ enum class LightExtent : uint8_t {
   range,      ///< distance < range; drawn as a quad whose fragments beyond are discarded
   box,        ///< axis-aligned mesh, half side `range`; where nothing is drawn as a mesh, the same as `range`, as are
   sphere,     ///< a mesh whose vertices lie on the sphere of radius `range`
-  cone        ///< a mesh with its apex at the light and its base at `range`, as wide as the light's cone
+  cone,       ///< a mesh with its apex at the light and its base at `range`, as wide as the light's cone
+  hemisphere  ///< half a `sphere`, on the side that a flat area light shines to: what `cone` is to these, not stated
 };
 
 /// glViewport in window pixels, y up; any integers. 0 x 0 stands for the whole image, whatever x and y.

@@ -1,5 +1,6 @@
 #include "scenes/pipeline/presets.h"
 
+#include <algorithm>
 #include <array>
 
 #include "core/fp_env.h"
@@ -136,6 +137,11 @@ Pipeline with_back_faces_culled(std::string_view name) {
   return pipeline;
 }
 
+Pipeline with_lights_of_area(Pipeline pipeline) {
+  pipeline.light_program = shipped_program("area");
+  return pipeline;
+}
+
 }  // namespace
 
 std::span<const Preset> presets() {
@@ -156,6 +162,11 @@ bool draws_light_programs() {
 const Pipeline& default_pipeline(const Scene& scene, bool by_program) {
   const FpScope fp;
   static const Pipeline program = with_back_faces_culled("gltf"), formula = with_back_faces_culled("punctual");
+  static const Pipeline areas = with_lights_of_area(preset_pipeline("gltf").value()),
+                        photometric_areas = with_lights_of_area(program);
+  if (by_program &&
+      std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& l) { return has_area(l.type); }))
+    return scene.photometric ? photometric_areas : areas;
   if (!scene.photometric) return presets().front().pipeline;
   return by_program ? program : formula;
 }

@@ -26,7 +26,8 @@ bool draws_light_programs();
 
 /// The pipeline that a scene starts from where no preset is named: that of the first row, or for a photometric scene
 /// that of glTF's own light model, with back faces culled: glTF's materials that are not double-sided show none. That
-/// model is a light program; without, the row of numbers for candela and lux stands in.
+/// model is a light program; without, the row of numbers for candela and lux stands in. A scene that has lights with an
+/// area starts from glTF's row too, by the light model `area`.
 const Pipeline& default_pipeline(const Scene& scene, bool by_program = draws_light_programs());
 
 /// Whether a pipeline has the light program of its preset's row, or none where the row has none.

@@ -217,6 +217,21 @@ void check_values(const LightProgram& program, std::span<const std::string> inpu
                   "--light-parameter " + input.substr(std::string_view(kParameterBlock).size()) + "=VALUE");
 }
 
+void check_lights(std::span<const Light> lights, const std::string& by, std::span<const std::string> inputs) {
+  if (std::any_of(inputs.begin(), inputs.end(), [](const std::string& i) { return i.starts_with("light.right"); }))
+    return;
+  const auto light = std::find_if(lights.begin(), lights.end(), [](const Light& l) { return has_area(l.type); });
+  if (light != lights.end())
+    throw Error(ErrorKind::bad_input, by,
+                "light " + std::to_string(light - lights.begin()) + " is a " + std::string(name_of(light->type)) +
+                    ", and this light model has no lights with an area",
+                "--light-shader area, or a light program that reads `right`");
+}
+
+void check_lights(std::span<const Light> lights, const Pipeline& pipeline) {
+  if (!pipeline.light_program.used()) check_lights(lights, pipeline.preset, {});
+}
+
 void check_camera(const Camera& camera, const std::string& file, std::span<const std::string> inputs) {
   if (!camera.clip_from_world) return;
   for (const std::string& input : inputs)

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "scenes/camera.h"
+#include "scenes/light.h"
 #include "scenes/pipeline/pipeline.h"
 
 // What a pipeline makes of the inputs that a light program reads. Their names are those of
@@ -55,6 +56,12 @@ std::string without_component(const std::string& name);
 
 /// Error(bad_input) where the inputs have the view's or the projection's matrix alone, and the camera is their product.
 void check_camera(const Camera& camera, const std::string& file, std::span<const std::string> inputs);
+
+/// Error(bad_input) where a light has an area and what draws it reads none.
+///   by: a light program's file, or a preset; inputs: of the program, none of a preset
+void check_lights(std::span<const Light> lights, const std::string& by, std::span<const std::string> inputs);
+/// The same of what the pipeline draws them by, unless that is a light program.
+void check_lights(std::span<const Light> lights, const Pipeline& pipeline);
 
 /// The value of an input of the block `Parameters`; nothing where none is given.
 std::optional<float> parameter_value(std::string_view input, const LightProgram& program);

@@ -125,6 +125,7 @@ ProgramFrame::ProgramFrame(const Scene& scene, const Pipeline& pipeline, Unlit u
   require_fields(name, reads_.captured, there);
   check_values(pipeline.light_program, inputs, whole->program.parameters);
   check_camera(scene.camera, name, inputs);
+  check_lights(scene.lights, name, inputs);
   for (const Material& m : scene.materials) {
     unlit_.push_back(m.unlit && unlit == Unlit::shows_albedo);
     has_unlit_ = has_unlit_ || unlit_.back() != 0;

@@ -219,6 +219,20 @@ void call_shininess(Bytes& out) {
   for (const TextureSlot* map : maps_of(scene_of_all().materials[0])) out.put(map->used());
 }
 
+void call_light_types(Bytes& out) {
+  for (size_t i = 0; i < std::size(kLightTypes); ++i) {
+    const auto type = LightType(i);
+    out.put(name_of(type));
+    out.put(row_of(type).is_aimed);
+    out.put(is_placed(type) && has_area(type));
+    out.put(stated_extent(type, LightVolumes{}));
+  }
+  Light light;
+  light.type = LightType::rectangle, light.right = {0.1f, 0.2f, 1e-40f}, light.up = {0.2f, -0.1f, 0.7f};
+  aim(light);
+  out.put_light(light);
+}
+
 void call_builtin(Bytes& out) {
   for (const BuiltinInfo& scene : builtin_scenes()) out.put(scene.name);
   out.put(builtin_scene("circle,lights=7,objects=5"));
@@ -239,12 +253,14 @@ void call_mesh(Bytes& out) {
 constexpr Row kRows[] = {
     {"scenes/builtin/builtin.h", "builtin_scene builtin_scenes", call_builtin},
     {"scenes/camera.h", "clip_from_world clip_from_view view_from_world product view_axis", call_camera},
+    {"scenes/light.h", "row_of name_of is_placed has_area", call_light_types},
+    {"scenes/pipeline/pipeline.h", "stated_extent", call_light_types},
     {"scenes/mesh.h", "vertex_count triangle_count has_uv has_color has_tangents uv_set", call_mesh},
     {"scenes/placement.h", "world_from_object copied turned turn_about unit mirrors", call_placements},
     {"scenes/texture.h",
      "append_texel build_mip_chain texel_value bytes_per_texel used texture_bytes float_texels_of_16_bits",
      call_textures},
-    {"scenes/timeline.h", "value_at direction_at rotation_at position_at set_property empty", call_tracks},
+    {"scenes/timeline.h", "value_at direction_at rotation_at position_at set_property aim empty", call_tracks},
     {"scenes/pipeline/transparency.h", "draws_transparent",
      [](Bytes& out) { out.put(draws_transparent(scene_of_all(), Pipeline{})); }},
     {"scenes/scene.h", "load_scene Image", call_load},
@@ -262,6 +278,7 @@ void Bytes::put_light(const Light& light) {
   put(light.type);
   for (const glm::vec3& three : {light.position, light.direction, light.color, light.attenuation, light.ambient})
     put(three);
+  for (const glm::vec3& extent : {light.right, light.up}) put(extent);
   for (const float number : {light.range, light.cone_rad, light.penumbra_rad, light.spot_exponent}) put(number);
 }
 

@@ -34,8 +34,7 @@ oracle::SpirvScalars no_inputs() {
 void set_surface(const Frame& frame, int x, int y, oracle::SpirvScalars& inputs) {
   const auto texel = [&](size_t plane, int first, int count) {
     Words words;
-    for (int c = first; c < first + count; ++c)
-      words.push_back(bits_of(float(frame.aovs[plane].image.value(x, y, c))));
+    for (int c = first; c < first + count; ++c) words.push_back(bits_of(float(frame.aovs[plane].image.value(x, y, c))));
     return words;
   };
   const std::string surface = "TsSurface.ts_surface.";

@@ -134,7 +134,7 @@ TEST_CASE("What does not go with a reference is refused at its place") {
   const auto refused = [&](const std::string& more, const std::string& where) {
     CHECK_STARTS_WITH(refusal(folder, referring("inner.json", more)), where);
   };
-  for (const std::string own : {"objects", "lights", "materials", "textures"})
+  for (const std::string own : {"objects", "materials", "textures"})
     refused(", \"" + own + "\": []", ": /" + own + ": it stands beside \"scene\"");
   for (const std::string alone : {R"("time": 1)", R"("light_changes": [])"})
     CHECK_THAT(refusal(folder, R"({"version": 1, )" + alone + '}'), Catch::Contains("it stands without \"scene\""));

@@ -246,7 +246,7 @@ TEST_CASE("export: what glTF cannot say is told") {
   scene.camera.clip_from_world.emplace();
   const std::vector<std::string> notes = glb_of_scene(scene, stored_picture).notes;
   REQUIRE(notes.size() == 3);
-  CHECK(notes[0].find("for trueshade alone, because glTF has none") != std::string::npos);
+  CHECK(notes[0].find("for trueshade alone, because glTF has no ambient lights") != std::string::npos);
   CHECK_STARTS_WITH(notes[1], "The camera is for trueshade alone");
   CHECK_STARTS_WITH(notes[2], "What moves is for trueshade alone");
 }

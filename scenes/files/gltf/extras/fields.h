@@ -13,9 +13,9 @@ inline constexpr auto kLightTypeNames = [] {
 }();
 inline constexpr std::string_view kBetweenNames[] = {"linear", "step", "cubic", "slerp"};
 inline constexpr std::string_view kLevelsNames[] = {"one", "filtered", "stored"};
-inline constexpr std::string_view kLightPropertyNames[] = {"color",     "intensity",    "ambient",     "position",
-                                                           "direction", "range",        "attenuation", "cone",
-                                                           "penumbra",  "spot_exponent"};
+inline constexpr std::string_view kLightPropertyNames[] = {
+    "color", "intensity", "ambient",       "position", "direction", "range", "attenuation",
+    "cone",  "penumbra",  "spot_exponent", "radius",   "right",     "up"};
 inline constexpr std::string_view kCameraPropertyNames[] = {"eye", "target", "up", "fov_y", "fov_x"};
 
 inline constexpr auto kLightFields = [](auto& f, auto& light) {
@@ -30,6 +30,8 @@ inline constexpr auto kLightFields = [](auto& f, auto& light) {
   f("penumbra_rad", light.penumbra_rad, absent.penumbra_rad);
   f("ambient", light.ambient, absent.ambient);
   f("spot_exponent", light.spot_exponent, absent.spot_exponent);
+  f("right", light.right, absent.right);
+  f("up", light.up, absent.up);
 };
 
 inline constexpr auto kMapFields = [](auto& f, auto& map) {

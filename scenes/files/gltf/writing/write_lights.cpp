@@ -63,9 +63,9 @@ void write_lights(Writing& out) {
     lights += (count == 0 ? "" : ",") + punctual(light, out.scene.photometric);
     out.glb.add("nodes", light_node(light, count++));
   }
-  if (const size_t ambient = out.scene.lights.size() - count; ambient > 0)
-    out.notes.push_back(std::to_string(ambient) + (ambient == 1 ? " ambient light is" : " ambient lights are") +
-                        " for trueshade alone, because glTF has none");
+  if (const size_t ours = out.scene.lights.size() - count; ours > 0)
+    out.notes.push_back(std::to_string(ours) + (ours == 1 ? " light is" : " lights are") +
+                        " for trueshade alone, because glTF has no ambient lights and none with an area");
   if (count == 0) return;
   out.glb.use("KHR_lights_punctual");
   out.lights_extension = "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[" + lights + "]}}";
