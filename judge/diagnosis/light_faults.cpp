@@ -4,6 +4,7 @@
 #include "judge/diagnosis/picture_faults.h"
 #include "judge/diagnosis/predicted_store.h"
 #include "judge/diagnosis/triple.h"
+#include "scenes/trig.h"
 
 namespace trueshade::oracle {
 
@@ -120,8 +121,48 @@ void nothing(LightPass&, double) {}
 void scale_cones(LightPass& p, double f) {
   for (Light& l : p.lights) l.cone_rad *= float(f), l.penumbra_rad *= float(f);
 }
+bool has_direction(const Light& l) { return row_of(l.type).is_aimed; }
+bool is_flat(const Light& l) { return has_area(l.type) && has_direction(l); }
 void turn_directions(LightPass& p, double) {
-  for (Light& l : p.lights) l.direction = -l.direction;
+  for (Light& l : p.lights) {
+    l.direction = -l.direction;
+    if (is_flat(l)) l.right = -l.right;
+  }
+}
+bool has_areas(const LightPass& p) {
+  return std::any_of(p.lights.begin(), p.lights.end(), [](const Light& l) { return has_area(l.type); });
+}
+bool has_flats(const LightPass& p) { return std::any_of(p.lights.begin(), p.lights.end(), is_flat); }
+double length_of(const glm::vec3& v) { return std::sqrt(inner(triple(v), triple(v))); }
+double area_of(const Light& l) {
+  const double right = length_of(l.right), up = length_of(l.up);
+  if (l.type == LightType::sphere) return kPi * right * right;  // as it is seen
+  if (l.type == LightType::disk) return kPi * right * up;
+  return 4 * right * up;
+}
+void scale_extents(LightPass& p, double f) {
+  for (Light& l : p.lights) l.right *= float(f), l.up *= float(f);
+}
+void swap_extents(LightPass& p, double) {
+  for (Light& l : p.lights)
+    if (l.type == LightType::rectangle) {
+      const double right = length_of(l.right), up = length_of(l.up);
+      l.right *= float(up / right), l.up *= float(right / up);
+    }
+}
+void shine_to_both_sides(LightPass& p, double) {
+  std::vector<Light> turned;
+  for (const Light& l : p.lights)
+    if (is_flat(l)) turned.push_back(l), turned.back().right = -l.right, turned.back().direction = -l.direction;
+  p.lights.insert(p.lights.end(), turned.begin(), turned.end());
+}
+void by_power(LightPass& p, double) {
+  for (Light& l : p.lights)
+    if (has_area(l.type)) l.color *= float(1 / area_of(l));
+}
+void as_points(LightPass& p, double) {
+  for (Light& l : p.lights)
+    if (has_area(l.type)) l.color *= float(area_of(l)), l.type = LightType::point;
 }
 void positions_as_halves(LightPass& p, double) {
   for (Light& l : p.lights)
@@ -160,7 +201,6 @@ void thin_out(LightPass& p, double step) {
   for (size_t i = 0; i < p.lights.size(); i += size_t(step)) left.push_back(p.lights[i]);
   p.lights = std::move(left);
 }
-bool has_direction(const Light& l) { return row_of(l.type).is_aimed; }
 /// Numbers of the light, times those of the vector.
 void scale_reach(Light& l, const Vector& v) { l.range *= float(v[0]); }
 void scale_cone(Light& l, const Vector& v) { l.cone_rad *= float(v[0]), l.penumbra_rad *= float(v[1]); }
@@ -344,6 +384,13 @@ constexpr PictureFault kFaults[] = {
     {"light-cones", "all cones are %s times as wide as they should be", scale_cones, nullptr, has_cones, kSmooth,
      kSpecularFactors},
     {"light-directions-turned", "the lights' directions have the wrong sign", turn_directions, nullptr, has_directions},
+    {"light-extents", "the extents of lights with an area are %s times what they should be", scale_extents, nullptr,
+     has_areas, kSmooth, kSpecularFactors},
+    {"light-extents-swapped", "the two extents of rectangles are swapped", swap_extents, nullptr, has_flats},
+    {"light-both-sides", "lights with an area shine to both sides where they should shine to one", shine_to_both_sides,
+     nullptr, has_flats},
+    {"light-power", "the radiance of lights with an area is divided by the area", by_power, nullptr, has_areas},
+    {"light-as-point", "lights with an area are drawn as points of the same intensity", as_points, nullptr, has_areas},
     of_all("lights-moved", "all lights are moved by %v", has_lamps, move_lights),
     of_all("lights-colored", "the colours of all lights are %v times what they should be", has_lamps, color_lights, 1),
     of_all("lighting-eye", "the viewer of highlights is moved by %v", shines_locally, move_viewer),

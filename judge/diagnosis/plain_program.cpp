@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <set>
 #include <string_view>
 
 #include "programs/front/light_program.h"
@@ -38,8 +39,11 @@ ShadedSurface shaded(const PlainSurface& p) {
 }  // namespace
 
 PlainProgram::PlainProgram(const Scene& scene, const Pipeline& pipeline)
-    : program_(*programs::kept_program(pipeline.light_program.file, pipeline.light_program.text)),
-      first_(program_.nodes.size(), 0) {
+    : PlainProgram(scene, pipeline, *programs::kept_program(pipeline.light_program.file, pipeline.light_program.text)) {
+}
+
+PlainProgram::PlainProgram(const Scene& scene, const Pipeline& pipeline, programs::Program program)
+    : program_(std::move(program)), first_(program_.nodes.size(), 0) {
   for (NodeId id = 0; id < program_.nodes.size(); ++id) {
     const ProgramNode& node = program_.nodes[id];
     const std::string name = node.op == Op::input ? program_.inputs[node.bits].name : "";
@@ -60,6 +64,36 @@ PlainProgram::PlainProgram(const Scene& scene, const Pipeline& pipeline)
       lists[size_t(node.rate)]->push_back(id);
     }
   }
+  of_type_.fill(of_light_);
+  std::set<LightType> types;
+  for (const Light& light : scene.lights) types.insert(light.type);
+  for (const LightType type : types) find_needed(type);
+}
+
+void PlainProgram::find_needed(LightType type) {
+  std::vector<bool> known(program_.nodes.size()), needed(program_.nodes.size());
+  Values values = first_;
+  for (NodeId id = 0; id < known.size(); ++id) {
+    const ProgramNode& node = program_.nodes[id];
+    if (node.op == Op::input) {
+      known[id] = program_.inputs[node.bits].name == "light.type";
+      values[id] = double(type);
+    } else if (const auto operands = node.operands(); node.op == Op::constant || !operands.empty()) {
+      known[id] = std::all_of(operands.begin(), operands.end(), [&](NodeId operand) { return bool(known[operand]); });
+      if (known[id] && node.op != Op::constant) values[id] = computed(node, values);
+    }
+  }
+  for (int output = programs::kLightOutput; output < programs::kLightOutput + 3; ++output)
+    needed[program_.output[size_t(output)]] = true;
+  for (NodeId id = NodeId(needed.size()); id-- > 0;) {
+    const ProgramNode& node = program_.nodes[id];
+    if (!needed[id] || node.op == Op::input || node.op == Op::constant) continue;
+    const bool is_decided = node.op == Op::select && known[node.operand[0]];
+    const size_t taken = is_decided && values[node.operand[0]] != 0 ? 1 : 2;
+    for (size_t k = 0; k < node.operands().size(); ++k)
+      if (!is_decided || k == 0 || k == taken) needed[node.operand[k]] = true;
+  }
+  std::erase_if(of_type_[size_t(type)], [&](NodeId id) { return !needed[id]; });
 }
 
 double PlainProgram::computed(const ProgramNode& node, const Values& values) const {
@@ -104,17 +138,20 @@ void PlainProgram::run(const std::vector<NodeId>& nodes, Values& values) const {
 }
 
 void PlainProgram::look_at(const PlainSurface& surface, const Camera& camera, Values& values) const {
+  look_at(shaded(surface), camera, values);
+}
+
+void PlainProgram::look_at(const ShadedSurface& seen, const Camera& camera, Values& values) const {
   values = first_;
   for (const auto& [id, c] : eye_inputs_) values[id] = double(camera.eye[int(c)]);
   run(of_frame_, values);
-  const ShadedSurface seen = shaded(surface);
   for (const auto& [id, field] : surface_inputs_) values[id] = field.at(seen).value;
   run(of_surface_, values);
 }
 
 Triple3 PlainProgram::term(const Light& light, uint32_t index, Values& values) const {
   for (const auto& [id, field] : light_inputs_) values[id] = field.at(light, index).value;
-  run(of_light_, values);
+  run(of_type_[size_t(light.type)], values);
   return three(programs::kLightOutput, values);
 }
 

@@ -2,6 +2,7 @@
 // A light program in double: what a light pass that is right makes of a surface, for the diagnosis, which changes the
 // lights and the surface and asks again.
 #include <array>
+#include <iterator>
 #include <vector>
 
 #include "judge/bounds/program_fields.h"
@@ -13,25 +14,31 @@ namespace trueshade::oracle {
 
 class PlainProgram {
  public:
-  PlainProgram(const Scene& scene, const Pipeline& pipeline);
+  PlainProgram(const Scene& scene, const Pipeline& pipeline);  ///< the pipeline's
+  PlainProgram(const Scene& scene, const Pipeline& pipeline, programs::Program program);
 
   bool defines_finish() const { return program_.defines_finish; }
 
   /// The values of one surface, for the functions below. Not while others use them.
   using Values = std::vector<double>;
   void look_at(const PlainSurface& surface, const Camera& camera, Values& values) const;
+  void look_at(const ShadedSurface& surface, const Camera& camera, Values& values) const;  ///< errors are not read
   Triple3 start(const Values& values) const { return three(programs::kStartOutput, values); }
   Triple3 term(const Light& light, uint32_t index, Values& values) const;
   std::array<double, 4> finish(const Triple3& sum, Values& values) const;
 
  private:
   Triple3 three(int output, const Values& values) const;
+  void find_needed(LightType type);
   void run(const std::vector<programs::NodeId>& nodes, Values& values) const;
   double computed(const programs::ProgramNode& node, const Values& values) const;
 
   programs::Program program_;
   Values first_;  ///< constants, and what holds for the frame
   std::vector<programs::NodeId> of_frame_, of_surface_, of_light_, of_sum_;
+  /// Of of_light_, by type, what lights of the type need: choices that go by the type leave the rest out. All of a type
+  /// that the scene does not have.
+  std::array<std::vector<programs::NodeId>, std::size(kLightTypes)> of_type_;
   std::vector<std::pair<programs::NodeId, SurfaceField>> surface_inputs_;
   std::vector<std::pair<programs::NodeId, LightField>> light_inputs_;
   std::vector<std::pair<programs::NodeId, size_t>> sum_inputs_, eye_inputs_;

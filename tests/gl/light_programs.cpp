@@ -65,6 +65,10 @@ TEST_CASE("llvmpipe draws programs of every kind as we do") {
   if (opened(GlDriver::llvmpipe) != nullptr) check_program_kinds(drawn_by_llvmpipe);
 }
 
+TEST_CASE("llvmpipe draws lights with an area as we do") {
+  if (opened(GlDriver::llvmpipe) != nullptr) check_area_lights(drawn_by_llvmpipe);
+}
+
 TEST_CASE("llvmpipe gives a program every field that we give it") {
   if (opened(GlDriver::llvmpipe) != nullptr) check_program_fields(drawn_by_llvmpipe);
 }

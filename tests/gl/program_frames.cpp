@@ -5,7 +5,9 @@
 #include <iterator>
 
 #include "scenes/builtin/builtin.h"
+#include "scenes/pipeline/shipped_models.h"
 #include "shading/frame.h"
+#include "tests/area_scenes.h"
 #include "tests/catch.hpp"
 #include "tests/shading/many_lights_text.h"
 
@@ -202,7 +204,7 @@ const char* const kFields[] = {
     "vec3(l.cos_inner, l.cos_outer, l.spot_exponent + 1.0)",
     "vec3(l.cone_scale, l.cone_offset, 1.0)",
     "vec3(l.penumbra_slope, l.cutoff_slope, 1.0)",
-    "l.right + l.up + vec3(float(l.shadow), float(l.cookie), 1.0)",
+    "l.right * 10.0 + l.up * 2.0 + vec3(float(l.shadow), float(l.cookie), 1.0)",
     "v.eye",
     "v.axis",
     "vec3(v.size * 0.01, 1.0)",
@@ -257,6 +259,17 @@ void check_program_kinds(const ProgramDrawer& drawn) {
   check(drawn, scene, thin, 0.005, true);
 }
 
+void check_area_lights(const ProgramDrawer& drawn) {
+  for (const std::string_view name : {"box", "mixed"})
+    for (const char* const model : {"area", "area-lambert"}) {
+      INFO(name << ", " << model);
+      Pipeline pipeline = by_program(shipped_program(model).text);
+      in_floats(pipeline);
+      pipeline.light_volumes.point = LightExtent::sphere, pipeline.light_volumes.spot = LightExtent::cone;
+      check_all(drawn, area_scene(name), pipeline, 0.002, true);
+    }
+}
+
 void check_program_fields(const ProgramDrawer& drawn) {
   Scene scene = furnished();
   scene.timeline.fps = 20000.0;  // a frame's number that is more than 16 bits
@@ -266,7 +279,8 @@ void check_program_fields(const ProgramDrawer& drawn) {
     pipeline.light_volumes.point = pipeline.light_volumes.spot = LightExtent::unbounded;
     pipeline.width = 64, pipeline.height = 48;
     in_floats(pipeline);
-    check_all(drawn, scene, pipeline, 1e-4, true);
+    const bool has_areas = std::string_view(field).starts_with("l.right");
+    check_all(drawn, has_areas ? area_scene("box") : scene, pipeline, 1e-4, true);
   }
 }
 

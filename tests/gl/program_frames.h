@@ -18,6 +18,10 @@ void check_many_lights(const ProgramDrawer& drawn);
 /// kind, in rgba32f: within 1/2000 of 1 and of the value, but for one pixel of 2000.
 void check_program_kinds(const ProgramDrawer& drawn);
 
+/// The models that light by lights with an area, under these and others: within 1/500 of 1 and of the value, but for
+/// one pixel of 2000.
+void check_area_lights(const ProgramDrawer& drawn);
+
 /// Every field of Surface, Light and View that is filled, shown by a program: within 1/10000 of 1 and of the value
 /// where both show the same object, but for one pixel of 2000.
 void check_program_fields(const ProgramDrawer& drawn);

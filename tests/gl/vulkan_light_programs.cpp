@@ -38,6 +38,10 @@ TEST_CASE("lavapipe draws programs of every kind as we do") {
   if (has_lavapipe()) check_program_kinds(drawn_by_lavapipe);
 }
 
+TEST_CASE("lavapipe draws lights with an area as we do") {
+  if (has_lavapipe()) check_area_lights(drawn_by_lavapipe);
+}
+
 TEST_CASE("lavapipe gives a program every field that we give it") {
   if (has_lavapipe()) check_program_fields(drawn_by_lavapipe);
 }
