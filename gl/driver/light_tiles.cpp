@@ -111,7 +111,7 @@ LightTiles light_tiles(const Scene& scene, const Pipeline& pipeline, std::span<c
   tiles.rows = (pipeline.height + tile - 1) / tile;
   const std::vector<TileSurface> surfaces = tile_surfaces(scene, pipeline, depth, normals, tile);
   const std::vector<size_t> texels = light_texels(pipeline);
-  const std::vector<float> lights = light_records(scene, texels);
+  const std::vector<float> lights = light_records(scene.lights, texels);
   const size_t floats = 4 * texels.size();
   uint32_t next = 0;
   for (const std::vector<uint32_t>& list : lists(scene, pipeline, tiles, surfaces)) {

@@ -172,7 +172,7 @@ GLuint SceneBuffers::light_texels(const Pipeline& pipeline) {
   if (lights_of_ && lights_of_->light_model == pipeline.light_model &&
       lights_of_->light_program == pipeline.light_program)
     return lights_.texture;
-  lights_ = make_texel_buffer(light_records(*scene_, oracle::light_texels(pipeline)));
+  lights_ = make_texel_buffer(light_records(scene_->lights, oracle::light_texels(pipeline)));
   lights_of_ = pipeline;
   return lights_.texture;
 }

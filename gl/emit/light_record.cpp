@@ -40,13 +40,13 @@ std::vector<Place> places_of(std::span<const size_t> texels) {
 
 }  // namespace
 
-std::vector<float> light_records(const Scene& scene, std::span<const size_t> texels) {
+std::vector<float> light_records(std::span<const Light> lights, std::span<const size_t> texels) {
   const std::vector<Place> places = places_of(texels);
   const size_t size = 4 * texels.size();
-  std::vector<float> out(size * std::max<size_t>(scene.lights.size(), 1));
-  for (size_t i = 0; i < scene.lights.size(); ++i)
+  std::vector<float> out(size * std::max<size_t>(lights.size(), 1));
+  for (size_t i = 0; i < lights.size(); ++i)
     for (const Place& place : places) {
-      const uint32_t bits = place.value.of(scene.lights[i], uint32_t(i));
+      const uint32_t bits = place.value.of(lights[i], uint32_t(i));
       out[i * size + place.at] = place.is_integer ? float(bits) : std::bit_cast<float>(bits);
     }
   return out;

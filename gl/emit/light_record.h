@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scenes/scene.h"
+#include "scenes/pipeline/pipeline.h"
 
 // How a light stands in the buffer `lights`, as RGBA32F texels.
 namespace trueshade::oracle {
@@ -35,6 +35,6 @@ inline constexpr size_t kLightTexels = kLightMembers[std::size(kLightMembers) - 
 std::string words_of_texel(size_t texel);
 
 /// The buffer: of each light these texels; of no light, zeros for one.
-std::vector<float> light_records(const Scene& scene, std::span<const size_t> texels);
+std::vector<float> light_records(std::span<const Light> lights, std::span<const size_t> texels);
 
 }  // namespace trueshade::oracle

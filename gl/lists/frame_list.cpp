@@ -115,7 +115,7 @@ class FrameLister {
     const std::vector<InstanceRecord> records = instance_records(scene_, pipeline_);
     list_.buffers.push_back({"instances", bytes_of(std::span<const InstanceRecord>(records)), false});
     const bool program = pipeline_.light_program.used();
-    add_texels("lights", light_records(scene_, light_texels(pipeline_)));
+    add_texels("lights", light_records(scene_.lights, light_texels(pipeline_)));
     if (const std::vector<uint8_t> block = parameter_bytes(pipeline_); !block.empty())
       list_.buffers.push_back({kParameters, block, false});
     samplers_.push_back({"lights", "lights"});

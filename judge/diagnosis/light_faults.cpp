@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "judge/diagnosis/picture_faults.h"
 #include "judge/diagnosis/predicted_store.h"
 #include "judge/diagnosis/triple.h"
-#include "scenes/trig.h"
 
 namespace trueshade::oracle {
 
@@ -136,8 +136,8 @@ bool has_flats(const LightPass& p) { return std::any_of(p.lights.begin(), p.ligh
 double length_of(const glm::vec3& v) { return std::sqrt(inner(triple(v), triple(v))); }
 double area_of(const Light& l) {
   const double right = length_of(l.right), up = length_of(l.up);
-  if (l.type == LightType::sphere) return kPi * right * right;  // as it is seen
-  if (l.type == LightType::disk) return kPi * right * up;
+  if (l.type == LightType::sphere) return std::numbers::pi * right * right;  // as it is seen
+  if (l.type == LightType::disk) return std::numbers::pi * right * up;
   return 4 * right * up;
 }
 void scale_extents(LightPass& p, double f) {
