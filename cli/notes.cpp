@@ -125,7 +125,7 @@ std::string boxes_line(const Scene& scene, ImageView view) {
   const uint64_t boxed = boxed_lights(scene), all = scene.lights.size();
   if (boxed == all && all > 0) return {};
   return "The view " + std::string(kViewNames[size_t(view)]) + " shows the boxes of " + std::to_string(boxed) + " of " +
-         counted(all, "light", "lights") + ": Only point and spot lights with a finite range have a box";
+         counted(all, "light", "lights") + ": Only lights that have a position and a finite range have a box";
 }
 
 std::string uv_line(const Scene& scene) {

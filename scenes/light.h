@@ -55,7 +55,7 @@ struct Light {
   float spot_exponent = 0.0f;  ///< of the cosine to the axis; in [0, 8192]; spot
   // Half extents of area lights, scene units:
   //   sphere           right.x: its radius
-  //   tube             right: from its middle to an end of its axis; up.x: its radius
+  //   tube             right: half of its axis, from the middle to an end; up.x: its radius
   //   rectangle, disk  right and up: from the centre to the edge, at right angles; light goes to the side of
   //                    cross(up, right) alone, whose unit vector `direction` is
   glm::vec3 right{0.0f}, up{0.0f};

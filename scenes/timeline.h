@@ -187,7 +187,8 @@ struct Timeline {
 struct Light;
 struct Camera;
 
-/// Gives a rectangle or a disk the direction of its extents.
+/// Sets `direction` of a rectangle or a disk to the unit vector of cross(up, right), the side that it shines to. Keeps
+/// it where right and up span no plane.
 void aim(Light& light);
 /// Sets one property as a scene file does: an intensity multiplies, angles are in radians.
 void set_property(Light& light, LightProperty property, const glm::dvec4& value);

@@ -1,6 +1,8 @@
 #include "tests/area_scenes.h"
 
 #include "scenes/builtin/builtin.h"
+#include "scenes/pipeline/presets.h"
+#include "scenes/pipeline/shipped_models.h"
 #include "scenes/timeline.h"
 
 namespace trueshade::testing {
@@ -95,6 +97,13 @@ Scene papered() {
 }
 
 }  // namespace
+
+Pipeline area_pipeline(std::string_view model, int width, int height) {
+  Pipeline p = *preset_pipeline("gltf");
+  p.light_program = shipped_program(model);
+  p.width = width, p.height = height;
+  return p;
+}
 
 Scene area_scene(std::string_view name) {
   return name == "box"       ? box()

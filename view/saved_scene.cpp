@@ -110,7 +110,7 @@ std::string saved_scene(const SceneFacts& facts, const DrawnPicture& picture, co
   if (looks.lights && *looks.lights != "keep")
     throw Error(ErrorKind::usage, path, "no scene file says the lights that --lights " + *looks.lights + " has made",
                 "open the scene with --lights keep");
-  const SceneReference known = facts.reference ? *facts.reference : SceneReference{facts.spec, {}, {}, {}, false};
+  const SceneReference known = facts.reference ? *facts.reference : SceneReference{facts.spec, {}, {}, false};
   const bool stands = picture.state.time != 0.0;
   std::string text = "{\n  \"version\": 1,\n  \"scene\": " + json_text_of(way_to(known.scene, path));
   if (known.time || stands) text += ",\n  \"time\": " + number_text(known.time ? *known.time : picture.state.time);

@@ -106,7 +106,7 @@ std::vector<size_t> texels_of(const PassProgram& program) {
   return out;
 }
 
-/// What a member of Light is made of its texel, "t0.xyz".
+/// The GLSL expression of a member of Light, of the texel that holds it: "t0.xyz".
 std::string value_of(const LightMember& m) {
   const std::string value = "t" + std::to_string(m.texel) + '.' + std::string(m.components);
   return m.made_by.empty() ? value : std::string(m.made_by) + '(' + value + ')';

@@ -162,8 +162,8 @@ class Scene:
     ) -> int:
         """Adds a light and returns its index, from 0. Lights are summed in this order.
 
-        type: ambient, directional, point, spot, sphere, tube, rectangle or disk. position: world space. direction: the way the light travels, world
-            space, of any length but 0.
+        type: ambient, directional, point, spot, sphere, tube, rectangle or disk. position: world space.
+        direction: the way the light travels, world space, of any length but 0.
         color: linear RGB, each 0 or more, times intensity. ambient: the light's share of ambient light, linear RGB.
         range: scene units, above 0, from which on there is no light; None is infinite.
         attenuation: k0, k1 [1/unit], k2 [1/unit^2] of presets that divide by k0 + k1 d + k2 d^2.

@@ -20,10 +20,10 @@ std::vector<json::ObjectKeys> reference_json_keys();
 /// The part of a scene file that another one stands for.
 struct SceneReference {
   std::string scene;                 ///< as load_scene() takes it; a file by its path from here
-  std::string lights;                ///< the text of lights in place of the other scene's; empty: none
-  std::vector<LightChange> changes;  ///< of these, in their order
+  std::vector<LightChange> changes;  ///< in their order
   std::optional<double> time;        ///< the other scene as it stands then, without what moves
   bool both_faces = false;           ///< its materials are lit on both faces
+  std::string lights{};              ///< text of lights in place of the other scene's, before the changes; empty: none
 };
 
 /// Whether a scene file's root says `both` by its key "faces".

@@ -116,7 +116,7 @@ struct LightVolumes {
 
 /// What bounds lights of a type whose range is finite.
 constexpr LightExtent stated_extent(LightType type, const LightVolumes& volumes) {
-  const LightReach reach = row_of(type).reach;
+  const LightReach reach = kLightTypes[size_t(type)].reach;
   return reach == LightReach::everywhere   ? LightExtent::unbounded
          : reach == LightReach::all_around ? volumes.point
                                            : volumes.spot;

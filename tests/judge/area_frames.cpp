@@ -6,8 +6,6 @@
 #include "gl/driver/renderer.h"
 #include "judge/diagnosis/finding.h"
 #include "judge/stages/validate.h"
-#include "scenes/pipeline/presets.h"
-#include "scenes/pipeline/shipped_models.h"
 #include "tests/area_scenes.h"
 #include "tests/catch.hpp"
 #include "tests/judge/captured.h"
@@ -19,20 +17,13 @@ using namespace trueshade::testing;
 
 namespace {
 
-Pipeline drawn_by(const char* model) {
-  Pipeline p = *preset_pipeline("gltf");
-  p.light_program = shipped_program(model);
-  p.width = 72, p.height = 54;
-  return p;
-}
-
 using Drawer = std::function<Capture(const Scene&, const Pipeline&)>;
 
 void check_five_scenes(const Drawer& drawn, const char* profile) {
   for (const std::string_view name : kAreaScenes)
     for (const char* const model : {"area", "area-lambert"}) {
       const Scene scene = area_scene(name);
-      const Pipeline pipeline = drawn_by(model);
+      const Pipeline pipeline = area_pipeline(model, 72, 54);
       ValidateOptions options;
       options.profile = *profile_named(profile);
       options.profile.subpixel_bits = 8;
@@ -108,8 +99,7 @@ struct Found {
 
 Found found() {
   Found out;
-  Pipeline pipeline = drawn_by("area");
-  pipeline.width = 48, pipeline.height = 36;
+  const Pipeline pipeline = area_pipeline("area", 48, 36);
   for (const Planted& planted : kPlanted) {
     const Scene scene = area_scene(planted.scene);
     Scene wrong = scene;

@@ -6,7 +6,6 @@
 #include "judge/stages/validate.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/pipeline/presets.h"
-#include "scenes/pipeline/shipped_models.h"
 #include "tests/area_scenes.h"
 #include "tests/catch.hpp"
 #include "tests/stated_presets.h"
@@ -94,8 +93,7 @@ TEST_CASE("lavapipe is explained under lights with an area, drawn by every strat
   if (!has_lavapipe()) return;
   for (size_t i = 0; i < std::size(testing::kAreaScenes); ++i)
     for (const char* const model : {"area", "area-lambert"}) {
-      Pipeline pipeline = *preset_pipeline("gltf");
-      pipeline.light_program = shipped_program(model);
+      Pipeline pipeline = testing::area_pipeline(model, 64, 48);
       pipeline.light_volumes.point = LightExtent::sphere, pipeline.light_volumes.spot = LightExtent::cone;
       INFO(testing::kAreaScenes[i] << ", " << model);
       check_lavapipe(testing::area_scene(testing::kAreaScenes[i]), small(pipeline, Strategy(i % std::size(kStrategyNames))));

@@ -43,7 +43,8 @@ constexpr std::array<double, 8> gauss_weights = {
     0.0, 0.129484966168869693270611432679082, 0.0, 0.279705391489276667901467771423780,
     0.0, 0.381830050505118944950369775488975, 0.0, 0.417959183673469387755102040816327};
 
-// An integral and, for each of its three values, the absolute difference between the Kronrod and the Gauss rule.
+// The integral of a function of three values, by the Kronrod rule, and an estimate of its error: the absolute
+// difference between that rule and the Gauss rule.
 struct Estimate {
   dvec3 value{0.0};
   dvec3 error{0.0};

@@ -7,7 +7,6 @@
 #include "core/image_hash.h"
 #include "core/simd/simd_target.h"
 #include "scenes/pipeline/presets.h"
-#include "scenes/pipeline/shipped_models.h"
 #include "shading/frame.h"
 #include "tests/area_scenes.h"
 #include "tests/catch.hpp"
@@ -19,12 +18,10 @@ using namespace trueshade::testing;
 
 namespace {
 
+/// In floats, so that no code hides a difference.
 Pipeline drawn_by(const char* model) {
-  Pipeline p = *preset_pipeline("gltf");
-  p.light_program = shipped_program(model);
-  p.width = 90, p.height = 70;
-  p.target = Format::rgba32f;
-  p.gbuffer.albedo.format = p.gbuffer.normal.format = Format::rgba32f;
+  Pipeline p = area_pipeline(model, 90, 70);
+  p.target = p.gbuffer.albedo.format = p.gbuffer.normal.format = Format::rgba32f;
   return p;
 }
 
@@ -43,7 +40,8 @@ glm::dvec3 three(const Image& plane, int x, int y) {
 }  // namespace
 
 TEST_CASE("Lights with an area draw one picture whatever draws it") {
-  const PreparedScene scene(area_scene("mixed"));
+  const Scene mixed = area_scene("mixed");  // borrowed
+  const PreparedScene scene(mixed);
   for (const char* const model : {"area", "area-lambert"})
     for (const Strategy strategy :
          {Strategy::deferred_loop, Strategy::forward_loop, Strategy::deferred_volumes, Strategy::forward_multipass}) {
