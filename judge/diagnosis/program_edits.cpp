@@ -34,11 +34,11 @@ class EditList {
  public:
   explicit EditList(const Program& program) : p_(program) {
     const std::vector<bool> needed = needed_by_light(program);
-    std::map<std::tuple<uint32_t, Op>, std::vector<NodeId>> steps;
+    std::map<std::tuple<uint32_t, uint32_t, Op>, std::vector<NodeId>> steps;
     for (NodeId id = 0; id < program.nodes.size(); ++id) {
       const ProgramNode& node = program.nodes[id];
       if (!needed[id] || node.line == 0 || node.op == Op::constant || node.op == Op::input) continue;
-      steps[{node.origin, node.op}].push_back(id);
+      steps[{node.origin, node.line, node.op}].push_back(id);
     }
     for (auto& [key, nodes] : steps) steps_.push_back(std::move(nodes));
     std::sort(steps_.begin(), steps_.end());

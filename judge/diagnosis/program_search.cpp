@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/threads/parallel_for.h"
 #include "judge/bounds/program_bounds.h"
 #include "judge/diagnosis/plain_program.h"
 #include "judge/diagnosis/program_edits.h"
@@ -59,12 +60,21 @@ class ProgramSearch {
     const std::span<const Square> first(squares_.data(), 1);
     choose_few();
     double best = 0;
-    for (ProgramEdit& edit : program_edits(right_.program())) {
+    std::vector<ProgramEdit> edits = program_edits(right_.program());
+    std::vector<uint8_t> likely(edits.size());
+    constexpr size_t kTogether = 32;
+    for (size_t i = 0; i < edits.size(); ++i) {
+      ProgramEdit& edit = edits[i];
       const bool is_last_resort =
           (edit.change == ProgramChange::scaled && !edit.is_parameter) || edit.change == ProgramChange::other_operand;
       if ((is_last_resort && best > kExplanation) || tries_ > kMostTries) break;
-      if (edit.fitted && !fit(edit)) continue;
-      if (!may_explain(edit) || match_of(edited(right_.program(), edit), first).explained < kLeastExplained / 2)
+      if (i % kTogether == 0)
+        parallel_for(int(std::min(kTogether, edits.size() - i)), 0, [&](int k) {
+          ProgramEdit& one = edits[i + size_t(k)];
+          likely[i + size_t(k)] = (!one.fitted || fit(one)) && may_explain(one, first);
+        });
+      if (!likely[i] || match_of(edited(right_.program(), edit), first).explained < kLeastExplained / 2 ||
+          !may_explain(edit, squares_))
         continue;
       const Match match = match_of(edited(right_.program(), edit), squares_);
       best = std::max(best, match.score());
@@ -199,40 +209,49 @@ class ProgramSearch {
   }
 
   /// What a program stores of a sample, in doubles and so without bounds: 50 times as fast.
-  std::array<double, 3> plainly_made(const PlainProgram& program, const Sample& sample) {
-    program.look_at(sample.surface, scene_.camera, values_);
-    Triple3 sum = program.start(values_);
+  std::array<double, 3> plainly_made(const PlainProgram& program, const Sample& sample) const {
+    thread_local PlainProgram::Values values;
+    program.look_at(sample.surface, scene_.camera, values);
+    Triple3 sum = program.start(values);
     for (uint32_t i = 0; i < scene_.lights.size(); ++i)
-      if (!ends_before(scene_.lights[i], sample.surface)) sum = plus(sum, program.term(scene_.lights[i], i, values_));
-    const std::array<double, 4> color = program.finish(sum, values_);
+      if (!ends_before(scene_.lights[i], sample.surface)) sum = plus(sum, program.term(scene_.lights[i], i, values));
+    const std::array<double, 4> color = program.finish(sum, values);
     std::array<double, 3> out;
     for (int k = 0; k < 3; ++k)
       out[size_t(k)] = stored_value(pipeline_, LightFault::Store::nearest, color[size_t(k)], k);
     return out;
   }
 
-  /// Whether a try with bounds could find that the edit explains enough: some of a few samples are within two codes and
-  /// 2 % of what is stored, where a color that explains is known to 1 part in 512.
-  bool may_explain(const ProgramEdit& edit) {
-    const PlainProgram program(scene_, pipeline_, edited(right_.program(), edit));
+  /// Whether a program stores about what is stored of a sample: within two codes and 1 part in 200, where a color that
+  /// is known to 1 part in 512 is off by no more. Of unlit surfaces it is not known.
+  bool is_near(const PlainProgram& program, const Sample& sample) const {
+    if (sample.surface.material > 0 && scene_.materials[sample.surface.material - 1].unlit) return true;
     const bool has_codes = info(color_.image->format).number_class == NumberClass::unorm;
-    for (const Sample* sample : few_) {
-      if (sample->surface.material > 0 && scene_.materials[sample->surface.material - 1].unlit) return true;
-      const std::array<double, 3> made = plainly_made(program, *sample);
-      bool near = true;
-      for (size_t k = 0; k < 3; ++k)
-        near = near &&
-               std::fabs(made[k] - sample->stored[k]) <= 0.02 * std::fabs(sample->stored[k]) + (has_codes ? 2.0 : 1e-6);
-      if (near) return true;
+    const std::array<double, 3> made = plainly_made(program, sample);
+    for (size_t k = 0; k < 3; ++k) {
+      const double stored = sample.stored[k];
+      if (!(std::fabs(made[k] - stored) <= 0.005 * std::fabs(stored) + (has_codes ? 2.0 : 1e-6))) return false;
     }
-    return false;
+    return true;
   }
 
-  /// How far a program's picture is off, of a few samples that are wrong: a part of the values, at most 1 each.
-  double distance(const ProgramEdit& edit) {
+  /// Whether a try with bounds could find that the edit explains enough of the squares, by programs in doubles.
+  bool may_explain(const ProgramEdit& edit, std::span<const Square> squares) const {
+    const PlainProgram program(scene_, pipeline_, edited(right_.program(), edit));
+    if (std::none_of(few_.begin(), few_.end(), [&](const Sample* s) { return is_near(program, *s); })) return false;
+    size_t wrong = 0, near = 0;
+    for (const Square& square : squares)
+      for (const Sample& s : square.samples)
+        if (s.wrong) ++wrong, near += is_near(program, s);
+    return double(near) >= kLeastExplained / 2 * double(wrong);
+  }
+
+  /// How far a program's picture is off, of the first of a few samples that are wrong: a part of the values, at most 1
+  /// each.
+  double distance(const ProgramEdit& edit, size_t samples) const {
     const PlainProgram program(scene_, pipeline_, edited(right_.program(), edit));
     double sum = 0;
-    for (const Sample* sample : few_) {
+    for (const Sample* sample : std::span(few_).first(samples)) {
       const std::array<double, 3> made = plainly_made(program, *sample);
       for (size_t k = 0; k < 3; ++k) {
         const double given = sample->stored[k], off = std::fabs(given - made[k]);
@@ -254,22 +273,26 @@ class ProgramSearch {
   }
 
   /// Finds the number of a constant: a factor on a grid, and between its neighbours by golden section. False where the
-  /// right number is as good.
-  bool fit(ProgramEdit& edit) {
+  /// right number is as good: by a quarter of the samples first, since most edits are refused.
+  bool fit(ProgramEdit& edit) const {
     constexpr double kGrid[] = {-1,   0,    0.05, 0.1,  0.2,   0.25,  0.3333, 0.5,   0.67, 0.8,
                                 0.9,  0.95, 0.98, 0.99, 0.997, 0.999, 1.001,  1.003, 1.01, 1.02,
                                 1.05, 1.1,  1.25, 1.5,  2,     3,     4,      5,     10,   20};
-    const double right = edit.number != 0 ? edit.number : 1;
-    const double now = distance(edit);
+    const double given = edit.number, right = given != 0 ? given : 1;
+    size_t samples = 0, best = 0;
+    double least = 0;
     const auto at = [&](double factor) {
       edit.number = factor * right;
-      return distance(edit);
+      return distance(edit, samples);
     };
-    size_t best = 0;
-    double least = HUGE_VAL;
-    for (size_t i = 0; i < std::size(kGrid); ++i)
-      if (const double d = at(kGrid[i]); d < least) least = d, best = i;
-    if (!(least < 0.6 * now)) return false;
+    for (samples = (few_.size() + 3) / 4;; samples = few_.size()) {
+      edit.number = given, least = HUGE_VAL;
+      const double now = distance(edit, samples);
+      for (size_t i = 0; i < std::size(kGrid); ++i)
+        if (const double d = at(kGrid[i]); d < least) least = d, best = i;
+      if (!(least < 0.6 * now)) return false;
+      if (samples == few_.size()) break;
+    }
     double low = kGrid[best == 0 ? 0 : best - 1], high = kGrid[std::min(best + 1, std::size(kGrid) - 1)];
     constexpr double kGolden = 0.6180339887498949;
     double p = high - kGolden * (high - low), q = low + kGolden * (high - low), at_p = at(p), at_q = at(q);
@@ -354,7 +377,6 @@ class ProgramSearch {
   std::vector<Square> squares_;
   std::vector<const Sample*> few_;
   ProgramBounds::Block block_;
-  PlainProgram::Values values_;
   size_t tries_ = 0;
 };
 

@@ -62,7 +62,7 @@ bool Lowering::linear_algebra(const SpirvInstruction& one) {
 /// An instruction of a block that is not its last.
 void Lowering::instruction(const SpirvInstruction& one) {
   const bool makes = has_result(one.op()) && one.size() > 1 && one.word(1) < m_.bound;
-  b_.set_source(line_, makes ? one.word(1) : 0);
+  b_.set_source(line_, makes ? one.word(1) : one.op() == SpirvOp::kStore ? one.word(0) : 0);
   b_.set_precise(makes && m_.precise[one.word(1)]);
   switch (one.op()) {
     case SpirvOp::kPhi:  // begin_block() has made it

@@ -40,7 +40,9 @@ struct ProgramNode {
   bool precise = false;  ///< SPIR-V's NoContraction: no compiler may fuse or reorder it
   uint32_t bits = 0;     ///< of a constant: its bits; of an input: its number
   uint32_t line = 0;     ///< of the source; 0: not known, or not the user's
-  uint32_t origin = 0;   ///< the number of the SPIR-V instruction's result: nodes of one origin are one step of the source
+  /// The SPIR-V number of what the instruction makes, or of the pointer that it stores through: nodes of one line and one
+  /// origin are one step of the source.
+  uint32_t origin = 0;
   std::array<NodeId, 3> operand{kNoNode, kNoNode, kNoNode};
 
   std::span<const NodeId> operands() const { return {operand.data(), size_t(info(op).operands)}; }
