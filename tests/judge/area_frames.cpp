@@ -130,13 +130,13 @@ Found found() {
 
 }  // namespace
 
-TEST_CASE("What engines do otherwise under lights with an area is convicted, and nearly all of it named", "[.][long]") {
+TEST_CASE("What engines do otherwise under lights with an area is convicted, and nearly all of it named", "[long]") {
   const Found all = found();
   CHECK(all.convicted == int(std::size(kPlanted)));
   CHECK(all.named >= 10);  // of 12
 }
 
-TEST_CASE("Five scenes under lights with an area, drawn by llvmpipe, are explained pixel by pixel", "[.][long]") {
+TEST_CASE("Five scenes under lights with an area, drawn by llvmpipe, are explained pixel by pixel", "[long]") {
   const GlContext* const context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   check_five_scenes([&](const Scene& scene, const Pipeline& p) { return GlRenderer(*context, scene).draw(p).capture; },

@@ -89,7 +89,7 @@ TEST_CASE("lavapipe is explained where meshes have tangents and others none, and
   CHECK(judged(scene, pipeline, frame.capture).violations() > 7);
 }
 
-TEST_CASE("lavapipe is explained under lights with an area, drawn by every strategy", "[.][long]") {
+TEST_CASE("lavapipe is explained under lights with an area, drawn by every strategy", "[long]") {
   if (!has_lavapipe()) return;
   for (size_t i = 0; i < std::size(testing::kAreaScenes); ++i)
     for (const char* const model : {"area", "area-lambert"}) {
