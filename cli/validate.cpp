@@ -14,6 +14,7 @@
 #include "cli/driver_capture.h"
 #include "cli/judged_mask.h"
 #include "cli/looks.h"
+#include "cli/misread_capture.h"
 #include "cli/notes.h"
 #include "cli/option_values.h"
 #include "cli/picture_output.h"
@@ -183,60 +184,6 @@ static Looks looks_of_capture(const CaptureFiles& files, std::vector<std::string
   return {};
 }
 
-static bool tells_surface(std::string_view plane) { return plane == "depth" || plane == "id.object"; }
-
-/// Pixels whose surface, as far as depth and id.object tell, is in no legal set; `proof`: the worst of them.
-static uint64_t misplaced(const oracle::Capture& capture, const Scene& scene, const Validation& v,
-                          oracle::WorstPixel* proof = nullptr) {
-  oracle::Capture surfaces;
-  surfaces.mask = capture.mask, surfaces.decoded = capture.decoded;
-  for (const NamedImage& plane : capture.planes)
-    if (tells_surface(plane.name)) surfaces.planes.push_back(plane);
-  if (surfaces.planes.empty()) return 0;
-  const oracle::Verdict verdict = oracle::validate_capture(scene, v.pipeline, surfaces, {v.profile});
-  if (proof != nullptr && !verdict.stages[0].worst.empty()) *proof = verdict.stages[0].worst[0];
-  return verdict.stages[0].count(oracle::PixelClass::violation);
-}
-
-/// What the files hold with their rows the other way round, if that is where the surfaces are: one finding. Planes that
-/// are computed from others and the pixel's place must be read again for it; turning them over would not do.
-static std::optional<oracle::Finding> found_upside_down(const ValidationOptions& options, const Scene& scene,
-                                                        const Validation& v) {
-  constexpr uint64_t kLeastShare = 50;  // a capture that is upside down has more than one wrong pixel in so many
-  const oracle::StageVerdict& first = v.verdict.stages.front();
-  if (first.stage != "gbuffer" || first.count(oracle::PixelClass::violation) * kLeastShare < first.judged())
-    return std::nullopt;
-  oracle::WorstPixel proof;
-  const uint64_t as_read = misplaced(v.capture, scene, v, &proof);
-  if (as_read == 0) return std::nullopt;
-  oracle::Capture turned;
-  try {
-    CaptureFiles files = capture_files_of(options.capture, options.limits);
-    std::erase_if(files.planes, [](const PlaneChannelList& plane) { return !tells_surface(plane.mapped.plane); });
-    for (PlaneChannelList& plane : files.planes) plane.mapped.bottom_up = !plane.mapped.bottom_up;
-    turned = captured_planes(files, scene, v.pipeline).capture;
-    store_as(v.pipeline, turned);
-    turned.mask = left_out_of(turned, options, scene, v);
-  } catch (const Error&) {
-    return std::nullopt;  // distances, say, that no surface has there; or files that can be read but once
-  }
-  const uint64_t otherwise = misplaced(turned, scene, v);
-  constexpr double kMostLeft = 0.1;
-  if (double(otherwise) > kMostLeft * double(as_read)) return std::nullopt;
-  const bool is_turned = options.capture.map && capture_map_from_option(*options.capture.map).bottom_up;
-  const std::string rows = is_turned ? "rows=top_down" : "rows=bottom_up";
-  oracle::Finding finding;
-  finding.name = rows;
-  finding.plane = "capture";
-  finding.text = "the rows of its files run the other way" +
-                 std::string(is_turned ? "" : ", as glReadPixels gives them") + ": read it with " + rows + " in --map";
-  finding.changed = as_read;
-  finding.explained = 1 - double(otherwise) / double(as_read);
-  finding.proof = {proof.x, proof.y, proof.plane, proof.given, proof.nominal, proof.given};
-  if (!options.capture.map) finding.command = "trueshade" + options.command_line + " --map " + rows;
-  return finding;
-}
-
 bool judge_opengl(const ValidationOptions& options) {
   check_pipeline(options);
   check_outputs(options);
@@ -289,7 +236,8 @@ bool judge_opengl(const ValidationOptions& options) {
   activity->now("finding what explains it");
   v.is_diagnosed = v.verdict.violations() > 0 || v.verdict.convicted() || !options.supposed.empty();
   if (options.capture.given() && options.supposed.empty() && v.verdict.violations() > 0)
-    if (const auto upside_down = found_upside_down(options, scene, v)) v.findings = {*upside_down};
+    v.findings = misread_findings(options, scene, v,
+                                  [&](const oracle::Capture& c) { return left_out_of(c, options, scene, v); });
   if (v.is_diagnosed && v.findings.empty()) find_explanation(scene, v, options.supposed);
   for (size_t i = 0; i < v.findings.size(); ++i) {
     // An edit of the text, or another way to read the files: nothing to suppose.

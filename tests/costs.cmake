@@ -41,6 +41,7 @@ trueshade_slow(10
   "judge:What llvmpipe makes of vertices' tangents is legal, and what it makes of wrong ones is not"
   "judge:Vertices' tangents in our own frames are explained, wrong ones are not"
   "cli:frames take what is predicted, within a fifth, and are refused where that is over the cap"
+  "cli:A plane that is read with the wrong words of --map is named with those that fit, and a wrong plane is not"
   "docs: what docs/tutorial.md shows runs"
   "gl:A tile lists every light that lights one of its pixels, and few that light none"
   "gl:Every OpenGL design draws textured materials, and spot lights in their cones"

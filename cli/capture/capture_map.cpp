@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <utility>
 
 #include "scenes/files/content/scene_files.h"
 
@@ -20,27 +21,33 @@ constexpr PlaneChannels kCapturedPlanes[] = {
 /// Which planes a word may be said of.
 enum Planes : uint8_t { kNormals = 1, kPositions = 2, kDepths = 4, kEvery = 8 };
 
+/// One word of a kind is said at most.
+enum class WordKind { packing, unorm, unit, space, depth, rows };
+
 struct MapWord {
   std::string_view word;
+  WordKind kind;
   int planes;
   void (*apply)(MappedPlane&);
 };
 constexpr MapWord kWords[] = {
-    {"octahedral", kNormals, [](MappedPlane& p) { p.packing = Packing::octahedral; }},
-    {"spheremap", kNormals, [](MappedPlane& p) { p.packing = Packing::spheremap; }},
-    {"unorm", kNormals, [](MappedPlane& p) { p.unorm = true; }},
-    {"unorm8", kNormals, [](MappedPlane& p) { p.unorm = true, p.unorm_bits = 8; }},
-    {"unorm10", kNormals, [](MappedPlane& p) { p.unorm = true, p.unorm_bits = 10; }},
-    {"unorm16", kNormals, [](MappedPlane& p) { p.unorm = true, p.unorm_bits = 16; }},
-    {"unit", kNormals, [](MappedPlane& p) { p.unit = true; }},
-    {"view", kNormals | kPositions, [](MappedPlane& p) { p.space = CapturedSpace::view; }},
-    {"view_z_away", kNormals | kPositions, [](MappedPlane& p) { p.space = CapturedSpace::view_z_away; }},
-    {"view_y_down_z_away", kNormals | kPositions, [](MappedPlane& p) { p.space = CapturedSpace::view_y_down_z_away; }},
-    {"window", kDepths | kPositions, [](MappedPlane& p) { p.depth = CapturedDepth::window; }},
-    {"reversed", kDepths | kPositions, [](MappedPlane& p) { p.depth = CapturedDepth::reversed; }},
-    {"linear", kDepths | kPositions, [](MappedPlane& p) { p.depth = CapturedDepth::linear; }},
-    {"distance", kDepths | kPositions, [](MappedPlane& p) { p.depth = CapturedDepth::distance; }},
-    {"bottom_up", kEvery, [](MappedPlane& p) { p.bottom_up = true; }}};
+    {"octahedral", WordKind::packing, kNormals, [](MappedPlane& p) { p.packing = Packing::octahedral; }},
+    {"spheremap", WordKind::packing, kNormals, [](MappedPlane& p) { p.packing = Packing::spheremap; }},
+    {"unorm", WordKind::unorm, kNormals, [](MappedPlane& p) { p.unorm = true, p.unorm_bits = 0; }},
+    {"unorm8", WordKind::unorm, kNormals, [](MappedPlane& p) { p.unorm = true, p.unorm_bits = 8; }},
+    {"unorm10", WordKind::unorm, kNormals, [](MappedPlane& p) { p.unorm = true, p.unorm_bits = 10; }},
+    {"unorm16", WordKind::unorm, kNormals, [](MappedPlane& p) { p.unorm = true, p.unorm_bits = 16; }},
+    {"unit", WordKind::unit, kNormals, [](MappedPlane& p) { p.unit = true; }},
+    {"view", WordKind::space, kNormals | kPositions, [](MappedPlane& p) { p.space = CapturedSpace::view; }},
+    {"view_z_away", WordKind::space, kNormals | kPositions,
+     [](MappedPlane& p) { p.space = CapturedSpace::view_z_away; }},
+    {"view_y_down_z_away", WordKind::space, kNormals | kPositions,
+     [](MappedPlane& p) { p.space = CapturedSpace::view_y_down_z_away; }},
+    {"window", WordKind::depth, kDepths | kPositions, [](MappedPlane& p) { p.depth = CapturedDepth::window; }},
+    {"reversed", WordKind::depth, kDepths | kPositions, [](MappedPlane& p) { p.depth = CapturedDepth::reversed; }},
+    {"linear", WordKind::depth, kDepths | kPositions, [](MappedPlane& p) { p.depth = CapturedDepth::linear; }},
+    {"distance", WordKind::depth, kDepths | kPositions, [](MappedPlane& p) { p.depth = CapturedDepth::distance; }},
+    {"bottom_up", WordKind::rows, kEvery, [](MappedPlane& p) { p.bottom_up = true; }}};
 
 int planes_of_word(std::string_view plane) {
   return kEvery | (plane == "normal" ? kNormals : plane == "position" ? kPositions : plane == "depth" ? kDepths : 0);
@@ -50,6 +57,17 @@ std::string_view trimmed(std::string_view text) {
   while (!text.empty() && std::string_view(" \t\r").find(text.front()) != std::string_view::npos) text.remove_prefix(1);
   while (!text.empty() && std::string_view(" \t\r").find(text.back()) != std::string_view::npos) text.remove_suffix(1);
   return text;
+}
+
+/// Why words of a plane do not go together, and what to do; empty where they do.
+std::pair<std::string, std::string> contradiction(const MappedPlane& plane) {
+  if (plane.plane == "position" && plane.depth != CapturedDepth::none && plane.space != CapturedSpace::world)
+    return {"a position from a depth has no space of its own", "leave out the word for the space"};
+  if (plane.packing != Packing::none && plane.unit)
+    return {"a packed normal is unit length as it is", "leave out 'unit'"};
+  if (plane.packing == Packing::spheremap && plane.unorm && plane.unorm_bits == 0)
+    return {"a spheremap is packed into [0, 1] as it is", "leave out 'unorm', or say unorm8, unorm10 or unorm16"};
+  return {};
 }
 
 /// Text of a file in an error: one line of at most 60 printable characters.
@@ -111,7 +129,7 @@ class MapReader {
     plane.plane = std::move(name);
     size_t colon = value.find(':');
     plane.source = trimmed(value.substr(0, colon));
-    std::string seen;
+    std::vector<const MapWord*> words;
     while (colon != std::string_view::npos) {
       value.remove_prefix(colon + 1);
       colon = value.find(':');
@@ -121,32 +139,18 @@ class MapReader {
       if (found == std::end(kWords)) fail("there is no word '" + shown(word) + "'", word_list(plane.plane));
       if ((found->planes & planes_of_word(plane.plane)) == 0)
         fail("'" + std::string(word) + "' is not said of plane " + plane.plane, word_list(plane.plane));
-      seen += ':' + std::string(word);
+      words.push_back(found);
       found->apply(plane);
     }
-    check_words(plane, seen);
+    for (size_t i = 0; i < words.size(); ++i)
+      for (size_t k = 0; k < i; ++k)
+        if (words[i]->kind == words[k]->kind) {
+          std::string seen;
+          for (const MapWord* w : words) seen += (seen.empty() ? "" : ":") + std::string(w->word);
+          fail("words of plane " + plane.plane + " contradict each other: " + shown(seen), "one of each kind");
+        }
+    if (const auto [reason, remedy] = contradiction(plane); !reason.empty()) fail(reason, remedy);
     return plane;
-  }
-
-  /// One word of a kind.
-  void check_words(const MappedPlane& plane, const std::string& seen) const {
-    const auto count = [&](std::initializer_list<std::string_view> words) {
-      int total = 0;
-      for (const std::string_view word : words)
-        for (size_t at = seen.find(':'); at != std::string::npos; at = seen.find(':', at + 1))
-          total += seen.substr(at + 1, seen.find(':', at + 1) - at - 1) == word;
-      return total;
-    };
-    if (count({"octahedral", "spheremap"}) > 1 || count({"unorm", "unorm8", "unorm10", "unorm16"}) > 1 ||
-        count({"view", "view_z_away", "view_y_down_z_away"}) > 1 ||
-        count({"window", "reversed", "linear", "distance"}) > 1 || count({"unit"}) > 1 || count({"bottom_up"}) > 1)
-      fail("words of plane " + plane.plane + " contradict each other: " + shown(seen.substr(1)), "one of each kind");
-    if (plane.plane == "position" && plane.depth != CapturedDepth::none && plane.space != CapturedSpace::world)
-      fail("a position from a depth has no space of its own", "leave out the word for the space");
-    if (plane.packing != Packing::none && plane.unit)
-      fail("a packed normal is unit length as it is", "leave out 'unit'");
-    if (plane.packing == Packing::spheremap && plane.unorm && plane.unorm_bits == 0)
-      fail("a spheremap is packed into [0, 1] as it is", "leave out 'unorm', or say unorm8, unorm10 or unorm16");
   }
 
   static std::string word_list(const std::string& plane) {
@@ -173,6 +177,55 @@ const PlaneChannels* channels_of_plane(std::string_view plane) {
   const auto found = std::find_if(std::begin(kCapturedPlanes), std::end(kCapturedPlanes),
                                   [&](const PlaneChannels& p) { return p.plane == plane; });
   return found == std::end(kCapturedPlanes) ? nullptr : &*found;
+}
+
+/// Whether a word says what the plane has already.
+static bool is_said(const MapWord& word, const MappedPlane& plane) {
+  MappedPlane again = plane;
+  word.apply(again);
+  return again == plane;
+}
+
+std::string words_of(const MappedPlane& plane) {
+  std::string words;
+  for (const MapWord& w : kWords)
+    if (w.kind != WordKind::rows && is_said(w, plane)) words += (words.empty() ? "" : ":") + std::string(w.word);
+  return words;
+}
+
+std::vector<std::vector<MappedPlane>> other_readings(const MappedPlane& plane, size_t channels) {
+  // Every plane that words make, beside how many kinds of words differ.
+  std::vector<std::pair<MappedPlane, int>> made;
+  MappedPlane bare;
+  bare.plane = plane.plane, bare.source = plane.source, bare.bottom_up = plane.bottom_up;
+  made.emplace_back(bare, 0);
+  for (const WordKind kind : {WordKind::packing, WordKind::unorm, WordKind::unit, WordKind::space, WordKind::depth}) {
+    const auto of_kind = [&](const MapWord& w) {
+      return w.kind == kind && (w.planes & planes_of_word(plane.plane)) != 0;
+    };
+    const auto none_said = std::none_of(std::begin(kWords), std::end(kWords),
+                                        [&](const MapWord& w) { return of_kind(w) && is_said(w, plane); });
+    std::vector<std::pair<MappedPlane, int>> more;
+    for (const auto& [so_far, changes] : made) {
+      more.emplace_back(so_far, changes + !none_said);
+      for (const MapWord& w : kWords) {
+        if (!of_kind(w)) continue;
+        more.emplace_back(so_far, changes + !is_said(w, plane));
+        w.apply(more.back().first);
+      }
+    }
+    made = std::move(more);
+  }
+  std::vector<std::vector<MappedPlane>> out(2);
+  const size_t whole = channels_of_plane(plane.plane)->least;
+  for (const auto& [other, changes] : made) {
+    const bool needs_two = other.packing != Packing::none;
+    const bool needs_one = other.plane == "position" && other.depth != CapturedDepth::none;
+    if (channels != (needs_two ? 2 : needs_one ? 1 : whole) || !contradiction(other).first.empty()) continue;
+    if (changes == 1 || changes == 2) out[size_t(changes) - 1].push_back(other);
+  }
+  while (!out.empty() && out.back().empty()) out.pop_back();
+  return out;
 }
 
 CaptureMap capture_map_from_text(std::string_view text, const std::string& where, ErrorKind kind) {

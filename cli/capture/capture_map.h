@@ -40,6 +40,7 @@ struct MappedPlane {
   bool unit = false;       ///< normals that were made unit length before they were stored
   bool bottom_up = false;  ///< the file's first row is the picture's last
 
+  bool operator==(const MappedPlane&) const = default;
   bool is_unpacked() const {
     return packing != Packing::none || space != CapturedSpace::world || unorm || unit ||
            (depth != CapturedDepth::none && depth != CapturedDepth::window) ||
@@ -62,6 +63,13 @@ CaptureMap capture_map_from_text(std::string_view text, const std::string& where
 
 /// The same of `--map`'s value: an entry list, or @FILE. Error(usage), or of the file as above Error(bad_input).
 CaptureMap capture_map_from_option(const std::string& value);
+
+/// The words of a plane as an entry has them, with colons between; without `bottom_up`.
+std::string words_of(const MappedPlane& plane);
+
+/// The same plane with other words that go with so many channels: first with those of one kind changed, then of two.
+/// Empty of planes that no word but `bottom_up` is said of.
+std::vector<std::vector<MappedPlane>> other_readings(const MappedPlane& plane, size_t channels);
 
 /// How many channels a plane may have, as it is stored.
 struct PlaneChannels {

@@ -230,6 +230,63 @@ TEST_CASE("A packed capture whose rows are read from the wrong end is told apart
     CHECK(finding["plane"] != "capture");
 }
 
+TEST_CASE("A plane that is read with the wrong words of --map is named with those that fit, and a wrong plane is not") {
+  const DrawnCapture c;
+  const Axes axes = axes_of(c);
+  const EnginePlane unit = repacked(c.normal, 3, [](const double* n, double* e) {
+    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int k = 0; k < 3; ++k) e[k] = length > 0 ? n[k] / length : 0;
+  });
+  const auto half_of = [](const double* n, double* e) {
+    for (int k = 0; k < 3; ++k) e[k] = double(float(n[k] * 0.5 + 0.5));
+  };
+  const EnginePlane view = repacked(unit, 3, [&](const double* n, double* e) { to_view(axes, n, e); });
+  write_npy(c.path("half.npy"), repacked(c.normal, 3, half_of), "<f4");
+  write_npy(c.path("view.npy"), repacked(view, 3, half_of), "<f4");
+  write_npy(c.path("oct.npy"), repacked(c.normal, 2, octahedral), "<f4");
+  write_npy(c.path("mirrored.npy"),
+            repacked(c.normal, 3, [](const double* n, double* e) { e[0] = -n[0], e[1] = n[2], e[2] = n[1]; }), "<f4");
+  write_npy(c.path("p.npy"),
+            repacked(c.position, 3,
+                     [&](const double* p, double* e) {
+                       const double v[] = {p[0] - axes.eye[0], p[1] - axes.eye[1], p[2] - axes.eye[2]};
+                       to_view(axes, v, e), e[2] = -e[2];
+                     }),
+            "<f4");
+  EnginePlane reversed = c.depth;
+  for (double& z : reversed.values) z = double(float(1 - z));
+  write_npy(c.path("z.npy"), reversed, "<f4");
+  struct Case {
+    std::string map;
+    std::vector<std::string> named;
+  };
+  const Case kCases[] = {
+      {"depth,id.object,normal=half.npy", {"normal=...:unorm"}},
+      {"depth,id.object,normal=half.npy:unorm:view", {"normal=...:unorm"}},
+      {"depth,id.object,normal=view.npy:unit", {"normal=...:unorm:unit:view"}},
+      {"depth,id.object,normal=oct.npy:octahedral:view_z_away", {"normal=...:octahedral"}},
+      {"depth,id.object,position=p.npy", {"position=...:view_z_away"}},
+      {"id.object,depth=z.npy", {"depth=...:reversed"}},
+      {"id.object,depth=c.depth.Z:reversed", {"depth=..."}},
+      {"id.object,depth=z.npy:linear,normal=half.npy:unorm:view", {"depth=...:reversed", "normal=...:unorm"}},
+      {"depth,id.object,normal,albedo,position=z.npy:window", {"position=...:reversed"}},
+      {"depth,id.object,normal=mirrored.npy", {}},
+  };
+  for (const Case& test : kCases) {
+    INFO(test.map);
+    Words options = {"--gbuffer", "c.exr", "--map", test.map};
+    if (test.map.find("albedo") != std::string::npos) options.insert(options.end(), {"--image", "c.exr"});
+    const Outcome outcome = c.judge(options);
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 1);
+    std::vector<std::string> named;
+    const nlohmann::json findings = nlohmann::json::parse(outcome.out)["diagnosis"];
+    for (const auto& finding : findings)
+      if (finding["plane"] == "capture") named.push_back(finding["name"]);
+    CHECK(named == test.named);
+  }
+}
+
 TEST_CASE("View space and distances are told from an engine's matrix too, Vulkan's and Direct3D's among them") {
   const DrawnCapture c;
   const Axes axes = axes_of(c);
