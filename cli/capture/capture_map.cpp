@@ -1,6 +1,9 @@
 #include "cli/capture/capture_map.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <iterator>
 #include <utility>
@@ -49,6 +52,8 @@ constexpr MapWord kWords[] = {
     {"distance", WordKind::depth, kDepths | kPositions, [](MappedPlane& p) { p.depth = CapturedDepth::distance; }},
     {"bottom_up", WordKind::rows, kEvery, [](MappedPlane& p) { p.bottom_up = true; }}};
 
+constexpr std::string_view kTimes = "times=";  // of depths and positions, with a number behind it
+
 int planes_of_word(std::string_view plane) {
   return kEvery | (plane == "normal" ? kNormals : plane == "position" ? kPositions : plane == "depth" ? kDepths : 0);
 }
@@ -65,6 +70,8 @@ std::pair<std::string, std::string> contradiction(const MappedPlane& plane) {
     return {"a position from a depth has no space of its own", "leave out the word for the space"};
   if (plane.packing != Packing::none && plane.unit)
     return {"a packed normal is unit length as it is", "leave out 'unit'"};
+  if (plane.times != 1 && !is_length(plane.depth))
+    return {"'times' is said of a distance", "say linear or distance beside it"};
   if (plane.packing == Packing::spheremap && plane.unorm && plane.unorm_bits == 0)
     return {"a spheremap is packed into [0, 1] as it is", "leave out 'unorm', or say unorm8, unorm10 or unorm16"};
   return {};
@@ -134,6 +141,11 @@ class MapReader {
       value.remove_prefix(colon + 1);
       colon = value.find(':');
       const std::string_view word = trimmed(value.substr(0, colon));
+      if (word.starts_with(kTimes)) {
+        if (plane.times != 1) fail("'times' is said twice of plane " + plane.plane, "one factor");
+        plane.times = factor_of(word.substr(kTimes.size()));
+        continue;
+      }
       const auto found =
           std::find_if(std::begin(kWords), std::end(kWords), [&](const MapWord& w) { return w.word == word; });
       if (found == std::end(kWords)) fail("there is no word '" + shown(word) + "'", word_list(plane.plane));
@@ -153,11 +165,19 @@ class MapReader {
     return plane;
   }
 
+  double factor_of(std::string_view text) const {
+    double factor = 0;
+    const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), factor);
+    if (wrong != std::errc{} || end != text.data() + text.size() || !(factor > 0) || !std::isfinite(factor))
+      fail("times=" + shown(text), "a number above 0, as times=0.01 of centimetres");
+    return factor;
+  }
+
   static std::string word_list(const std::string& plane) {
     std::string list;
     for (const MapWord& w : kWords)
       if ((w.planes & planes_of_word(plane)) != 0) list += (list.empty() ? "one of " : ", ") + std::string(w.word);
-    return list;
+    return planes_of_word(plane) & (kDepths | kPositions) ? list + ", times=FACTOR" : list;
   }
   static std::string plane_list() {
     std::string list;
@@ -190,7 +210,10 @@ std::string words_of(const MappedPlane& plane) {
   std::string words;
   for (const MapWord& w : kWords)
     if (w.kind != WordKind::rows && is_said(w, plane)) words += (words.empty() ? "" : ":") + std::string(w.word);
-  return words;
+  if (plane.times == 1) return words;
+  char factor[32];
+  std::snprintf(factor, sizeof factor, ":%s%.9g", kTimes.data(), plane.times);
+  return words + factor;
 }
 
 std::vector<std::vector<MappedPlane>> other_readings(const MappedPlane& plane, size_t channels) {
@@ -211,7 +234,9 @@ std::vector<std::vector<MappedPlane>> other_readings(const MappedPlane& plane, s
       for (const MapWord& w : kWords) {
         if (!of_kind(w)) continue;
         more.emplace_back(so_far, changes + !is_said(w, plane));
-        w.apply(more.back().first);
+        MappedPlane& other = more.back().first;
+        w.apply(other);
+        other.times = is_length(other.depth) ? plane.times : 1;
       }
     }
     made = std::move(more);

@@ -35,6 +35,7 @@ struct MappedPlane {
   Packing packing = Packing::none;
   CapturedSpace space = CapturedSpace::world;
   CapturedDepth depth = CapturedDepth::none;
+  double times = 1;        ///< what linear depths and distances are multiplied by, so that they are scene units
   bool unorm = false;      ///< [0, 1] stands for [-1, 1]
   int unorm_bits = 0;      ///< of the codes that floats of the file were made of; 0: they were floats
   bool unit = false;       ///< normals that were made unit length before they were stored
@@ -47,6 +48,11 @@ struct MappedPlane {
            (plane == "position" && depth != CapturedDepth::none);
   }
 };
+
+/// Whether the depth is a distance in scene units.
+inline bool is_length(CapturedDepth depth) {
+  return depth == CapturedDepth::linear || depth == CapturedDepth::distance;
+}
 
 /// What `--map` says. Without any plane, planes are found by their usual channels.
 struct CaptureMap {

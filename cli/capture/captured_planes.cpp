@@ -144,9 +144,7 @@ class PlaneUnpacker {
            "write it as float: a half keeps 11 of its bits");
   }
 
-  static bool is_linear(const PlaneChannelList& plane) {
-    return plane.mapped.depth == CapturedDepth::linear || plane.mapped.depth == CapturedDepth::distance;
-  }
+  static bool is_linear(const PlaneChannelList& plane) { return is_length(plane.mapped.depth); }
 
   /// Codes of a world normal n/2 + 1/2 in the very format that the pipeline has are judged as such.
   bool is_stored_normal(const PlaneChannelList& plane) const {
@@ -199,10 +197,10 @@ class PlaneUnpacker {
 
   PackedNumber number_at(const PlaneChannelList& plane, size_t channel, int x, int y) const {
     const Channel& of = *plane.channels[channel];
-    const double value = of.value(file_pixel(plane, x, y));
+    const double value = of.value(file_pixel(plane, x, y)) * plane.mapped.times;
     if (std::isnan(value))
       fail_at(plane, x, y, "which is not a number", "find what the shader divides by, or capture another frame");
-    PackedNumber number{value, step_of(of, value), 0};
+    PackedNumber number{value, step_of(of, value / plane.mapped.times) * plane.mapped.times, 0};
     if (of.is_code() || of.kind == ChannelKind::snorm) number.fetch = 2.5 * 0x1p-23 * std::fabs(value);
     if (plane.mapped.unorm_bits == 0 || of.is_code()) return number;
     const double largest = double((1u << plane.mapped.unorm_bits) - 1), code = std::nearbyint(value * largest);

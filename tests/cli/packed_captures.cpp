@@ -123,6 +123,9 @@ TEST_CASE("A capture whose values are packed is judged by what its codes say, an
   CHECK(by_reversed["lighting"] == expected["lighting"]);
   check(but_depth + "depth=linear.npy:linear", false, most);
   check(but_depth + "depth=distance.npy:distance", false, most);
+  const auto part_of_far = [](const double* d, double* e) { e[0] = double(float(d[0] / 50)); };
+  write_npy(c.path("part.npy"), repacked(linear, 1, part_of_far), "<f4");
+  check(but_depth + "depth=part.npy:linear:times=50", false, most);
   const std::string but_position = "depth,normal,albedo,id.object,";
   check(but_position + "position=linear.npy:linear", false, most);
   check(but_position + "position=distance.npy:distance", false, most);
@@ -256,6 +259,14 @@ TEST_CASE("A plane that is read with the wrong words of --map is named with thos
   EnginePlane reversed = c.depth;
   for (double& z : reversed.values) z = double(float(1 - z));
   write_npy(c.path("z.npy"), reversed, "<f4");
+  EnginePlane part = c.depth;
+  for (int y = 0; y < part.height; ++y)
+    for (int x = 0; x < part.width; ++x) {
+      double v[3];
+      for (int k = 0; k < 3; ++k) v[k] = c.position.at(x, y, k) - axes.eye[k];
+      part.at(x, y, 0) = c.covered(x, y) ? double(float(-along(axes.back, v) / 50)) : 1;
+    }
+  write_npy(c.path("part.npy"), part, "<f4");
   struct Case {
     std::string map;
     std::vector<std::string> named;
@@ -271,6 +282,7 @@ TEST_CASE("A plane that is read with the wrong words of --map is named with thos
       {"id.object,depth=z.npy:linear,normal=half.npy:unorm:view", {"depth=...:reversed", "normal=...:unorm"}},
       {"depth,id.object,normal,albedo,position=z.npy:window", {"position=...:reversed"}},
       {"depth,id.object,normal=mirrored.npy", {}},
+      {"id.object,depth=part.npy:distance:times=50", {"depth=...:linear:times=50"}},
   };
   for (const Case& test : kCases) {
     INFO(test.map);
