@@ -172,9 +172,25 @@ void add_parts(CommandTable& table, CompareOptions& options) {
   add_mask(table, options.mask);
 }
 
+/// Options of FLIP do something.
+void check_flip(const CompareOptions& options) {
+  const auto& criteria = options.rules.criteria;
+  const bool is_measured =
+      std::any_of(criteria.begin(), criteria.end(), [](const auto& c) { return compare::is_flip(c.measure); }) ||
+      std::any_of(options.outputs.begin(), options.outputs.end(), [](const std::string& path) {
+        return !has_ending(path, ".html") && !has_ending(path, ".exr");  // a map, or a folder of maps
+      });
+  for (const std::string& name : options.of_flip) {
+    if (!is_measured) throw usage(name, "nothing here measures FLIP", "add --flip MEAN or -o map.png, or leave it out");
+    if (options.rules.range == compare::CompareRules::Range::low && (name == "--tone-mapper" || name == "--exposures"))
+      throw usage(name, "with --ldr nothing is exposed", "leave out one of them");
+  }
+}
+
 void add_flip(CommandTable& table, CompareOptions& options) {
   using Range = compare::CompareRules::Range;
   table.open_group = "FLIP";
+  const size_t first = table.rows.size();
   const auto add_range = [&](const char* name, Range range, std::string help) {
     OptionRow row{.names = name, .value_name = "", .help = std::move(help)};
     row.take = [&rules = options.rules, range](const std::vector<std::string>&) {
@@ -192,6 +208,13 @@ void add_flip(CommandTable& table, CompareOptions& options) {
            compare::kToneMapperNames);
   add_read(table, "--exposures", "START,STOP[,COUNT]", options.rules.flip.exposures, exposures_from_text,
            "With --hdr: factors of light as powers of 2, instead of those found from the reference");
+  for (size_t i = first; i < table.rows.size(); ++i) {
+    OptionRow& row = table.rows[i];
+    row.take = [&options, name = row.names, take = row.take](const std::vector<std::string>& given) {
+      options.of_flip.push_back(name);
+      take(given);
+    };
+  }
 }
 
 }  // namespace
@@ -255,6 +278,7 @@ CompareOptions finished(CompareOptions options) {
   for (const std::string& path : options.outputs)
     options.rules.wants_flip = options.rules.wants_flip || has_ending(path, ".png");
   check_named_once("-o", options.outputs);
+  check_flip(options);
   return options;
 }
 

@@ -88,6 +88,12 @@ ComparedPictures compared_pictures(const std::string& reference, const std::stri
     require_memory(flip_memory(uint64_t(part.width) * uint64_t(part.height)), reference, "FLIP");
   check_bounds(pictures, rules.criteria);
   pictures.comparison = compare::compared(pictures.reference, pictures.test, rules);
+  for (const compare::IgnoredIds& ids : options.mask.ignored) {
+    PixelMask alone{part.width, part.height, std::vector<uint8_t>(size_t(part.width) * size_t(part.height))};
+    compare::leave_out_ids(pictures.reference, ids, alone), compare::leave_out_ids(pictures.test, ids, alone);
+    if (alone.count() == 0)
+      pictures.comparison.notes.push_back("--ignore " + ids.text() + " leaves nothing out: neither picture has it");
+  }
   for (const PictureFile* picture : {&pictures.reference, &pictures.test})
     if (is_lenient(picture->metadata))
       pictures.comparison.notes.push_back(picture->path +

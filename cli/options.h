@@ -199,6 +199,7 @@ struct CompareOptions : LimitedOptions {
   std::vector<std::string> channels;  ///< names; empty: all
   bool bottom_up = false;             ///< the test's first row is its lowest
   std::optional<double> delta;        ///< of the criteria that have one
+  std::vector<std::string> of_flip;   ///< the options of FLIP that were given
   bool no_judge = false;              ///< values are compared, although the reference carries its scene
   std::vector<std::string> outputs;   ///< .png, .exr or .html; of folders .html and one folder
   std::optional<std::string> junit;   ///< .xml

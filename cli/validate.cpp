@@ -223,6 +223,8 @@ bool judge_opengl(const ValidationOptions& options) {
   files.reset();
   v.capture.mask = left_out_of(v.capture, options, scene, v);
   v.left_out_by = options.mask.any() ? options.mask.text() : "";
+  if (options.mask.any() && v.capture.mask.count() == 0)
+    v.notes.push_back(v.left_out_by + " leaves nothing out: no pixel has it");
   for (const std::string& path : options.saved) {
     activity->now("writing " + printable(path, Lines::one));
     save(v.capture, path);

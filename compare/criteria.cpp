@@ -20,8 +20,6 @@ Judged judged(const Criterion& criterion, double measured) {
   return {criterion, measured, at_least ? measured >= criterion.bound : measured <= criterion.bound};  // NaN fails
 }
 
-bool is_flip(Measure measure) { return measure == Measure::flip_mean || measure == Measure::flip_weighted_median; }
-
 std::string_view name_of(Measure measure) {
   switch (measure) {
     case Measure::unequal_pixels:

@@ -35,7 +35,9 @@ struct Judged {
 
 Judged judged(const Criterion& criterion, double measured);
 
-bool is_flip(Measure measure);
+constexpr bool is_flip(Measure measure) {
+  return measure == Measure::flip_mean || measure == Measure::flip_weighted_median;
+}
 constexpr bool has_delta(Measure measure) {
   return measure == Measure::pixels_beyond || measure == Measure::window_share;
 }

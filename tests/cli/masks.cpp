@@ -53,6 +53,39 @@ bool says(const std::string& text, const std::string& part) {
 
 }  // namespace
 
+TEST_CASE("A number to ignore that no picture has is said, and options of FLIP that do nothing are refused") {
+  const ScratchFolder folder;
+  write_pair(folder);
+  folder.write("s.json", R"({"version": 1, "camera": {"eye": [0, 0, 3], "target": [0, 0, 0]},
+    "objects": [{"mesh": "sphere"}], "lights": [{"type": "ambient", "color": [1, 1, 1]}]})");
+  const auto draw = [&](const char* file) {
+    REQUIRE(run_command({"render", "s.json", "--size", "32x24", "-o", file, "--aov",
+                         "depth,position,normal,albedo,id.object", "-q"},
+                        folder.path(""))
+                .exit_code == 0);
+  };
+  draw("a.exr"), draw("b.exr");
+  const auto ignore = [&](const char* number) {
+    return run_command({"compare", "a.exr", "b.exr", "--ignore", number, "--allow-mask"}, folder.path("")).out;
+  };
+  says(ignore("id.object=7"), "--ignore id.object=7 leaves nothing out");
+  CHECK(ignore("id.object=1").find("leaves nothing out") == std::string::npos);
+  const Outcome judged =
+      run_command({"validate", "s.json", "--gbuffer", "a.exr", "--ignore", "id.object=7", "--quick"}, folder.path(""));
+  says(judged.out, "id.object=7 leaves nothing out");
+
+  const auto refused = [&](std::vector<std::string> options, const char* reason) {
+    const Outcome outcome = run_compare(folder, std::move(options));
+    CHECK(outcome.exit_code == 2);
+    says(outcome.err, reason);
+  };
+  refused({"--ppd", "40"}, "nothing here measures FLIP");
+  refused({"--hdr", "-o", "page.html"}, "nothing here measures FLIP");
+  refused({"--ldr", "--flip", "0.1", "--tone-mapper", "hable"}, "with --ldr nothing is exposed");
+  CHECK(run_compare(folder, {"--ppd", "40", "--flip", "1"}).exit_code == 0);
+  CHECK(run_compare(folder, {"--ppd", "40", "-o", "map.png"}).exit_code == 1);
+}
+
 TEST_CASE("what a mask leaves out is no difference, and is counted in text, JSON and page") {
   const ScratchFolder folder;
   write_pair(folder);
