@@ -70,8 +70,12 @@ std::string black_note(const Scene& scene, const Pipeline& pipeline, const Frame
   if (std::string empty = empty_note(scene, frame.stats); !empty.empty()) return empty;
   if (pipeline.view != ImageView::lit || !is_black(frame.color)) return {};
   if (scene.lights.empty()) return "The picture is black: The scene has no lights";
+  const bool has_flat = std::any_of(scene.lights.begin(), scene.lights.end(),
+                                    [](const Light& l) { return has_area(l.type) && row_of(l.type).is_aimed; });
   return "The picture is black: None of its " + std::to_string(scene.lights.size()) +
-         " lights brightens a surface (their ranges may be too short, their colours 0, or the surfaces may face away; "
+         " lights brightens a surface (their ranges may be too short, their colours 0, or the surfaces may face "
+         "away; " +
+         (has_flat ? "rectangles and disks shine to one side, cross(up, right); " : "") +
          "--view normal and --view light-count show which)";
 }
 

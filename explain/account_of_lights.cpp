@@ -17,6 +17,8 @@ const char* list_name(LightFate fate) {
       return "behind";
     case LightFate::outside_cone:
       return "outside_cone";
+    case LightFate::behind_light:
+      return "behind_light";
     case LightFate::gives_nothing:
       return "gives_nothing";
     default:
@@ -51,7 +53,7 @@ void add_lists(const LightTotal& total, Account& to) {
   for (size_t i = 0; i < total.lights.size(); ++i) by_fate[size_t(total.lights[i].fate)].push_back(int64_t(i));
   to.add("adding", int64_t(by_fate[size_t(LightFate::adds)].size()), "lights that add something");
   for (const LightFate fate : {LightFate::out_of_reach, LightFate::faces_away, LightFate::outside_cone,
-                               LightFate::not_drawn, LightFate::gives_nothing}) {
+                               LightFate::behind_light, LightFate::not_drawn, LightFate::gives_nothing}) {
     const std::vector<int64_t>& lights = by_fate[size_t(fate)];
     if (lights.empty()) continue;
     to.add(list_name(fate), lights, "indices of lights that add nothing: " + std::string(text(fate)));

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
@@ -132,6 +133,13 @@ void add_program_light(const ExplainedFrame& frame, const LightTotal& total, siz
   const bool placed = is_placed(row.type);
   to.add("color", row.color, "colour times intensity");
   if (placed && std::isfinite(row.range)) to.add("range", row.range, "scene units");
+  if (has_area(row.type)) {
+    const Light& own = frame.scene.lights[light];
+    const auto three = [](const glm::vec3& v) { return std::array{v.x, v.y, v.z}; };
+    to.add("right", three(own.right), "from the centre to its edge or end, scene units");
+    to.add("up", three(own.up), "the other extent");
+    if (row_of(row.type).is_aimed) to.add("direction", three(own.direction), "the side to which it shines");
+  }
   if (placed) to.add("d", at.d, "distance, scene units");
   if (at.fate == LightFate::out_of_reach) {
     to.add("end", std::sqrt(row.cut2), "distance from which this light adds nothing");

@@ -31,6 +31,8 @@ std::string_view text(LightFate fate) {
       return "behind the surface";
     case LightFate::outside_cone:
       return "outside the cone";
+    case LightFate::behind_light:
+      return "behind the light, which shines to one side";
     case LightFate::gives_nothing:
       return "its light is 0 here";
   }
@@ -53,6 +55,8 @@ LightFate fate_without_light(const Light& light, const SurfacePlanes& surface) {
     d[size_t(k)] = directional ? axis[size_t(k)] : light.position[k] - surface.position[size_t(k)];
   }
   if (!(dot(d, surface.normal.data()) > 0.0f)) return LightFate::faces_away;
+  const bool is_flat = has_area(light.type) && row_of(light.type).is_aimed;
+  if (is_flat && !(dot(d, axis.data()) > 0.0f)) return LightFate::behind_light;
   const bool outside = dot(d, axis.data()) <= LightCone(light).cos_outer * std::sqrt(dot(d, d.data()));
   return light.type == LightType::spot && outside ? LightFate::outside_cone : LightFate::gives_nothing;
 }

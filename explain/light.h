@@ -16,9 +16,10 @@ enum class LightFate : uint8_t {
   not_drawn,      ///< its geometry does not cover the pixel, or is culled there
   faces_away,     ///< it adds nothing, and N . D is not above 0
   outside_cone,   ///< it adds nothing, and its direction is not within its outer cone
+  behind_light,   ///< it adds nothing, and lies on the side to which a rectangle or disk does not shine
   gives_nothing,  ///< it adds nothing
 };
-inline constexpr size_t kLightFates = 6;
+inline constexpr size_t kLightFates = 7;
 std::string_view text(LightFate fate);
 
 /// What a light adds to a pixel: docs/arithmetic.md section 8 or docs/light_programs.md.

@@ -212,6 +212,28 @@ TEST_CASE("explain tells each line of a light program that the strongest light c
   CHECK(told.out.find("light.position.xyz - surface.position.xyz") != std::string::npos);
 }
 
+TEST_CASE("explain tells the extents of a light with an area, and which surfaces lie behind one that is flat") {
+  const ScratchFolder folder;
+  const auto told = [&](const char* up) {
+    folder.write("s.json", std::string(R"({"version": 1, "camera": {"eye": [0, 1, 4], "target": [0, 0.5, 0]},
+      "objects": [{"mesh": "plane", "scale": 6}],
+      "lights": [{"type": "rectangle", "position": [0, 2, 1], "right": [0.6, 0, 0], "up": )") +
+                               up + R"(, "range": 10}]})");
+    const Outcome outcome =
+        run_command({"explain", "s.json", "--size", "64x48", "--pixel", "32,40", "--all"}, folder.path(""));
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    return outcome.out;
+  };
+  const auto has = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
+  const std::string lit = told("[0, 0, -0.3]"), behind = told("[0, 0, 0.3]");
+  CHECK(has(lit, "light 0, rectangle: adds"));
+  CHECK(has(lit, "up         0, 0, -0.3"));
+  CHECK(has(lit, "direction  0, -1, 0"));
+  CHECK(has(behind, "behind_light  0"));
+  CHECK(has(behind, "light 0, rectangle: behind the light, which shines to one side"));
+}
+
 TEST_CASE("explain tells where another picture's value comes from under a light program") {
   const ScratchFolder folder;
   write_bytes(folder.path("p.glsl"), kProgram);

@@ -34,6 +34,9 @@ TEST_CASE("A black picture says why: no lights, none that reaches, nothing in vi
   CHECK(has(said_of(R"("lights": [])"), "note: The picture is black: The scene has no lights"));
   CHECK(has(said_of(R"("lights": [{"type": "point", "position": [0, 90, 0], "range": 1}])"),
             "note: The picture is black: None of its 1 lights brightens a surface"));
+  CHECK(has(said_of(R"("lights": [{"type": "rectangle", "position": [0, 3, 0], "right": [1, 0, 0], "up": [0, 0, 1],
+                        "range": 9}])"),
+            "rectangles and disks shine to one side, cross(up, right)"));
   CHECK(has(said_of(kLamp + R"(, "camera": {"eye": [0, 0, 5], "target": [0, 0, 10]})"),
             "note: Nothing is drawn: None of 12 triangles covers a pixel"));
   for (const char* singular : {"[0,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]", "[1,1,0,0, 1,1,0,0, 0,0,1,0, 0,0,0,1]"})
