@@ -13,8 +13,8 @@ make_bare_debian() {
   log=$(mktemp)
   if ((EUID != 0)); then
     echo "that needs root"
-  elif ! command -v debootstrap >/dev/null; then
-    echo "debootstrap is not installed"
+  elif ! has_debootstrap; then
+    echo "debootstrap cannot be installed"
   elif [[ -z $mirror ]]; then
     echo "apt of this machine does not know where its packages are"
   elif ! debootstrap --variant=minbase "$suite" "$folder" "$mirror" >"$log" 2>&1; then
@@ -30,6 +30,14 @@ make_bare_debian() {
     fi
   fi
   rm -f "$log"
+}
+
+# has_debootstrap: whether it is there, after installing it where it is not.
+has_debootstrap() {
+  command -v debootstrap >/dev/null && return
+  local -a get=(env DEBIAN_FRONTEND=noninteractive apt-get -qq -y)
+  "${get[@]}" --no-install-recommends install debootstrap >/dev/null 2>&1 </dev/null ||
+    { "${get[@]}" update && "${get[@]}" --no-install-recommends install debootstrap; } >/dev/null 2>&1 </dev/null
 }
 
 # inside COMMANDS: runs them in the Debian at $root, with /proc, /sys and /dev, which end with them.
