@@ -17,5 +17,7 @@ say "building for aarch64 on $(nproc) cores"
 quietly "the build for aarch64" inside "$here && cmake -S . --preset release --toolchain cmake/aarch64-linux-gnu.cmake -DTRUESHADE_PARTS=picture -DTRUESHADE_TESTS=OFF &&
   cmake --build build/release --parallel $(nproc) --target trueshade_picture"
 by_qemu() { inside "$here && qemu-aarch64-static build/release/cli/trueshade-picture $*"; }
+export -f by_qemu inside  # frames are drawn by shells of their own
+export root here
 without_light_programs=true draw_golden_frames 1 by_qemu  # a build of the picture alone has no glslang
 say "aarch64 is right"
