@@ -172,7 +172,7 @@ void add_parts(CommandTable& table, CompareOptions& options) {
   add_mask(table, options.mask);
 }
 
-/// Options of FLIP do something.
+/// Error(usage) of an option of FLIP that does nothing, whatever the pictures are.
 void check_flip(const CompareOptions& options) {
   const auto& criteria = options.rules.criteria;
   const bool is_measured =

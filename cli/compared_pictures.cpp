@@ -88,6 +88,10 @@ ComparedPictures compared_pictures(const std::string& reference, const std::stri
     require_memory(flip_memory(uint64_t(part.width) * uint64_t(part.height)), reference, "FLIP");
   check_bounds(pictures, rules.criteria);
   pictures.comparison = compare::compared(pictures.reference, pictures.test, rules);
+  if (const auto& flip = pictures.comparison.flip; flip && !flip->exposures)
+    for (const std::string& name : options.of_flip)
+      if (name == "--tone-mapper" || name == "--exposures")
+        pictures.comparison.notes.push_back(name + " does nothing: these colours are a screen's, unless --hdr is said");
   for (const compare::IgnoredIds& ids : options.mask.ignored) {
     PixelMask alone{part.width, part.height, std::vector<uint8_t>(size_t(part.width) * size_t(part.height))};
     compare::leave_out_ids(pictures.reference, ids, alone), compare::leave_out_ids(pictures.test, ids, alone);

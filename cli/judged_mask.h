@@ -11,7 +11,8 @@ namespace trueshade {
 /// Error(bad_input): the mask is none, or not of the pipeline's size; more pixels, or more of those with a surface in
 /// our own frame, are left out than may be.
 ///   mask: the file, if there is one
+///   notes: gets a line of each list of identifiers that nothing has; may be null
 PixelMask judged_mask(const compare::MaskRules& rules, const PictureFile* mask, const Scene& scene, Pipeline pipeline,
-                      const oracle::Capture& capture);
+                      const oracle::Capture& capture, std::vector<std::string>* notes = nullptr);
 
 }  // namespace trueshade

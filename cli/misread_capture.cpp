@@ -131,7 +131,9 @@ class Rereader {
 
   /// Other words of a plane, those that change the fewest kinds of words. The plane is read so from then on.
   std::optional<Finding> other_words(PlaneChannelList& plane) {
-    const std::vector<std::vector<MappedPlane>> others = other_readings(plane.mapped, plane.channels.size());
+    // A depth may be a part of the far distance, and lengths in other units: centimetres, millimetres, hundreds.
+    const double factors[] = {double(scene_.camera.far), 0.01, 0.001, 100, 1000, 1};
+    const std::vector<std::vector<MappedPlane>> others = other_readings(plane.mapped, plane.channels.size(), factors);
     if (others.empty()) return std::nullopt;
     const bool by_light = is_told_by_light(plane.mapped);
     const auto read_as = [&](const MappedPlane& mapped) {
@@ -159,10 +161,8 @@ class Rereader {
       const std::string words = words_of(*best_plane), now = words_of(plane.mapped), name = plane.mapped.plane;
       const Finding f = finding(name + "=..." + (words.empty() ? "" : ":" + words),
                                 "plane " + name + " fits when --map reads it " +
-                                    (words.empty() ? "without the word" : "with :" + words) +
-                                    (now.empty()     ? ", and not as it is"
-                                     : words.empty() ? " " + now
-                                                     : ", and not :" + now),
+                                    (words.empty() ? "without words" : "with :" + words) + ", and not " +
+                                    (now.empty() ? "as it is" : "with :" + now),
                                 *as_read, *best);
       plane.mapped = *best_plane;
       return f;

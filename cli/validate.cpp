@@ -96,11 +96,11 @@ void fit_capture(const ValidationOptions& options, const CaptureFiles& files, co
 
 /// The pixels of a capture that are not judged.
 PixelMask left_out_of(const oracle::Capture& capture, const ValidationOptions& options, const Scene& scene,
-                      const Validation& v) {
+                      const Validation& v, std::vector<std::string>* notes = nullptr) {
   if (!options.mask.any()) return {};
   std::optional<PictureFile> mask;
   if (!options.mask.file.empty()) mask = read_any_picture(options.mask.file, options.limits.expansion);
-  return judged_mask(options.mask, mask ? &*mask : nullptr, scene, v.pipeline, capture);
+  return judged_mask(options.mask, mask ? &*mask : nullptr, scene, v.pipeline, capture, notes);
 }
 
 /// The file of a capture's picture, as far as its name tells: a file of planes may hold one.
@@ -221,10 +221,8 @@ bool judge_opengl(const ValidationOptions& options) {
       fit_capture(options, *files, scene, v);
   });
   files.reset();
-  v.capture.mask = left_out_of(v.capture, options, scene, v);
+  v.capture.mask = left_out_of(v.capture, options, scene, v, &v.notes);
   v.left_out_by = options.mask.any() ? options.mask.text() : "";
-  if (options.mask.any() && v.capture.mask.count() == 0)
-    v.notes.push_back(v.left_out_by + " leaves nothing out: no pixel has it");
   for (const std::string& path : options.saved) {
     activity->now("writing " + printable(path, Lines::one));
     save(v.capture, path);

@@ -136,9 +136,14 @@ void add_program_light(const ExplainedFrame& frame, const LightTotal& total, siz
   if (has_area(row.type)) {
     const Light& own = frame.scene.lights[light];
     const auto three = [](const glm::vec3& v) { return std::array{v.x, v.y, v.z}; };
-    to.add("right", three(own.right), "from the centre to its edge or end, scene units");
-    to.add("up", three(own.up), "the other extent");
-    if (row_of(row.type).is_aimed) to.add("direction", three(own.direction), "the side to which it shines");
+    if (row.type != LightType::sphere)
+      to.add("right", three(own.right), "from the centre to an end or an edge, scene units");
+    if (row_of(row.type).is_aimed) {
+      to.add("up", three(own.up), "to another edge");
+      to.add("direction", three(own.direction), "the side to which it shines");
+    } else {
+      to.add("radius", row.type == LightType::sphere ? own.right.x : own.up.x, "scene units");
+    }
   }
   if (placed) to.add("d", at.d, "distance, scene units");
   if (at.fate == LightFate::out_of_reach) {

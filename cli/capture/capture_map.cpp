@@ -70,8 +70,6 @@ std::pair<std::string, std::string> contradiction(const MappedPlane& plane) {
     return {"a position from a depth has no space of its own", "leave out the word for the space"};
   if (plane.packing != Packing::none && plane.unit)
     return {"a packed normal is unit length as it is", "leave out 'unit'"};
-  if (plane.times != 1 && !is_length(plane.depth))
-    return {"'times' is said of a distance", "say linear or distance beside it"};
   if (plane.packing == Packing::spheremap && plane.unorm && plane.unorm_bits == 0)
     return {"a spheremap is packed into [0, 1] as it is", "leave out 'unorm', or say unorm8, unorm10 or unorm16"};
   return {};
@@ -137,13 +135,16 @@ class MapReader {
     size_t colon = value.find(':');
     plane.source = trimmed(value.substr(0, colon));
     std::vector<const MapWord*> words;
+    bool has_factor = false;
     while (colon != std::string_view::npos) {
       value.remove_prefix(colon + 1);
       colon = value.find(':');
       const std::string_view word = trimmed(value.substr(0, colon));
       if (word.starts_with(kTimes)) {
-        if (plane.times != 1) fail("'times' is said twice of plane " + plane.plane, "one factor");
-        plane.times = factor_of(word.substr(kTimes.size()));
+        if (has_factor) fail("'times' is said twice of plane " + plane.plane, "one factor");
+        if ((planes_of_word(plane.plane) & (kDepths | kPositions)) == 0)
+          fail("'times' is not said of plane " + plane.plane, word_list(plane.plane));
+        plane.times = factor_of(word.substr(kTimes.size())), has_factor = true;
         continue;
       }
       const auto found =
@@ -161,6 +162,8 @@ class MapReader {
           for (const MapWord* w : words) seen += (seen.empty() ? "" : ":") + std::string(w->word);
           fail("words of plane " + plane.plane + " contradict each other: " + shown(seen), "one of each kind");
         }
+    if (has_factor && !is_length(plane.depth))
+      fail("'times' is said of a distance", "say linear or distance beside it");
     if (const auto [reason, remedy] = contradiction(plane); !reason.empty()) fail(reason, remedy);
     return plane;
   }
@@ -216,7 +219,8 @@ std::string words_of(const MappedPlane& plane) {
   return words + factor;
 }
 
-std::vector<std::vector<MappedPlane>> other_readings(const MappedPlane& plane, size_t channels) {
+std::vector<std::vector<MappedPlane>> other_readings(const MappedPlane& plane, size_t channels,
+                                                     std::span<const double> factors) {
   // Every plane that words make, beside how many kinds of words differ.
   std::vector<std::pair<MappedPlane, int>> made;
   MappedPlane bare;
@@ -234,16 +238,22 @@ std::vector<std::vector<MappedPlane>> other_readings(const MappedPlane& plane, s
       for (const MapWord& w : kWords) {
         if (!of_kind(w)) continue;
         more.emplace_back(so_far, changes + !is_said(w, plane));
-        MappedPlane& other = more.back().first;
-        w.apply(other);
-        other.times = is_length(other.depth) ? plane.times : 1;
+        w.apply(more.back().first);
       }
     }
     made = std::move(more);
   }
+  std::vector<std::pair<MappedPlane, int>> scaled;
+  for (auto [other, changes] : made) {
+    other.times = is_length(other.depth) ? plane.times : 1;
+    scaled.emplace_back(other, changes);
+    if (!is_length(other.depth)) continue;
+    for (const double factor : factors)
+      if (factor != plane.times) other.times = factor, scaled.emplace_back(other, changes + 1);
+  }
   std::vector<std::vector<MappedPlane>> out(2);
   const size_t whole = channels_of_plane(plane.plane)->least;
-  for (const auto& [other, changes] : made) {
+  for (const auto& [other, changes] : scaled) {
     const bool needs_two = other.packing != Packing::none;
     const bool needs_one = other.plane == "position" && other.depth != CapturedDepth::none;
     if (channels != (needs_two ? 2 : needs_one ? 1 : whole) || !contradiction(other).first.empty()) continue;

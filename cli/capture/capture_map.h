@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -75,7 +76,9 @@ std::string words_of(const MappedPlane& plane);
 
 /// The same plane with other words that go with so many channels: first with those of one kind changed, then of two.
 /// Empty of planes that no word but `bottom_up` is said of.
-std::vector<std::vector<MappedPlane>> other_readings(const MappedPlane& plane, size_t channels);
+///   factors: what `times` may be of lengths
+std::vector<std::vector<MappedPlane>> other_readings(const MappedPlane& plane, size_t channels,
+                                                     std::span<const double> factors);
 
 /// How many channels a plane may have, as it is stored.
 struct PlaneChannels {

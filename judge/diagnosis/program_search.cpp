@@ -217,20 +217,27 @@ class ProgramSearch {
       if (!ends_before(scene_.lights[i], sample.surface)) sum = plus(sum, program.term(scene_.lights[i], i, values));
     const std::array<double, 4> color = program.finish(sum, values);
     std::array<double, 3> out;
-    for (int k = 0; k < 3; ++k)
-      out[size_t(k)] = stored_value(pipeline_, LightFault::Store::nearest, color[size_t(k)], k);
+    for (int k = 0; k < 3; ++k) out[size_t(k)] = stored_value(pipeline_, LightFault::Store::right, color[size_t(k)], k);
     return out;
   }
 
-  /// Whether a program stores about what is stored of a sample: within two codes and 1 part in 200, where a color that
-  /// is known to 1 part in 512 is off by no more. Of unlit surfaces it is not known.
+  /// What a float of the target may be off by, relative, where it is stored as its other neighbour.
+  double step_of_target(size_t channel) const {
+    const FormatInfo layout = info(color_.image->format);
+    if (layout.number_class == NumberClass::unorm || layout.bits[channel] >= 32) return 0;
+    return std::ldexp(1.0, layout.bits[channel] == 16 ? -10 : 5 - layout.bits[channel]);  // five bits of exponent
+  }
+
+  /// Whether a program stores about what is stored of a sample: within two codes, or a step of floats, and 1 part in
+  /// 200, where a color that is known to 1 part in 512 is off by no more. Of unlit surfaces it is not known.
   bool is_near(const PlainProgram& program, const Sample& sample) const {
     if (sample.surface.material > 0 && scene_.materials[sample.surface.material - 1].unlit) return true;
     const bool has_codes = info(color_.image->format).number_class == NumberClass::unorm;
     const std::array<double, 3> made = plainly_made(program, sample);
     for (size_t k = 0; k < 3; ++k) {
       const double stored = sample.stored[k];
-      if (!(std::fabs(made[k] - stored) <= 0.005 * std::fabs(stored) + (has_codes ? 2.0 : 1e-6))) return false;
+      const double least = has_codes ? 2.0 : 1e-6, part = 0.005 + step_of_target(k);
+      if (!(std::fabs(made[k] - stored) <= part * std::fabs(stored) + least)) return false;
     }
     return true;
   }

@@ -154,7 +154,8 @@ TEST_CASE("A wrong map is convicted or refused") {
   check_map_refused("normal=c.N.XY:octahedral:spheremap", 2, "contradict each other");
   check_map_refused("depth=c.depth.Z:times=2", 2, "'times' is said of a distance");
   check_map_refused("depth=c.depth.Z:linear:times=-1", 2, "times=-1");
-  check_map_refused("depth=c.depth.Z:linear:times=2:times=3", 2, "said twice");
+  check_map_refused("depth=c.depth.Z:linear:times=1:times=3", 2, "said twice");
+  check_map_refused("normal=c.N.XYZ:times=1", 2, "'times' is not said of plane normal");
   check_map_refused("normal=c.N.XYZ:octahedral", 3, "plane normal takes 2 channels, not 3");
   check_map_refused("normal=c.N.XYW", 3, "there are no channels 'N.XYW' for plane normal");
   check_map_refused("normal=none.exr.RGB", 5, "none.exr");

@@ -83,6 +83,7 @@ TEST_CASE("A number to ignore that no picture has is said, and options of FLIP t
   refused({"--hdr", "-o", "page.html"}, "nothing here measures FLIP");
   refused({"--ldr", "--flip", "0.1", "--tone-mapper", "hable"}, "with --ldr nothing is exposed");
   CHECK(run_compare(folder, {"--ppd", "40", "--flip", "1"}).exit_code == 0);
+  says(run_compare(folder, {"--tone-mapper", "hable", "--flip", "1"}).out, "--tone-mapper does nothing");
   CHECK(run_compare(folder, {"--ppd", "40", "-o", "map.png"}).exit_code == 1);
 }
 

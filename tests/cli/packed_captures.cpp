@@ -283,6 +283,7 @@ TEST_CASE("A plane that is read with the wrong words of --map is named with thos
       {"depth,id.object,normal,albedo,position=z.npy:window", {"position=...:reversed"}},
       {"depth,id.object,normal=mirrored.npy", {}},
       {"id.object,depth=part.npy:distance:times=50", {"depth=...:linear:times=50"}},
+      {"id.object,depth=part.npy", {"depth=...:linear:times=50"}},
   };
   for (const Case& test : kCases) {
     INFO(test.map);

@@ -375,6 +375,29 @@ TEST_CASE("Slips in a light's GLSL are convicted, and their line is named first"
   CHECK(found.named == found.planted);
 }
 
+TEST_CASE("A slip is named by its line in small floats too, which are cut off where the pipeline says so") {
+  const Scene scene = test_scene();
+  for (const HalfRound round : {HalfRound::toward_zero, HalfRound::nearest}) {
+    const auto pipeline_with = [&](const LightProgram& program) {
+      Pipeline pipeline = pipeline_of(program, Format::r11g11b10f);
+      pipeline.gbuffer.half_round = round;
+      return pipeline;
+    };
+    const LightProgram right = model("ggx_of_docs");
+    LightProgram wrong = right;
+    const size_t at = wrong.text.find("/ pi");
+    REQUIRE(at != std::string::npos);
+    wrong.text.replace(at, 4, "");
+    const auto line = 1 + std::count(wrong.text.begin(), wrong.text.begin() + ptrdiff_t(at), '\n');
+    const Capture capture = captured(scene, pipeline_with(wrong));
+    const Verdict verdict = judged(scene, pipeline_with(right), capture);
+    const std::vector<Finding> findings = diagnose(scene, pipeline_with(right), Profile{}, capture, verdict.stages);
+    REQUIRE(!findings.empty());
+    CHECK_THAT(findings[0].text, Catch::StartsWith("line " + std::to_string(line) + " of "));
+    CHECK_THAT(findings[0].text, Catch::EndsWith("leaves out a division"));
+  }
+}
+
 TEST_CASE("Of 30 slips in lights' GLSL 29 are convicted, and of 27 the line is named first", "[long]") {
   const Found found = found_slips(1);
   CHECK(found.planted == 30);
