@@ -136,13 +136,13 @@ void add_program_light(const ExplainedFrame& frame, const LightTotal& total, siz
   if (has_area(row.type)) {
     const Light& own = frame.scene.lights[light];
     const auto three = [](const glm::vec3& v) { return std::array{v.x, v.y, v.z}; };
-    if (row.type != LightType::sphere)
-      to.add("right", three(own.right), "from the centre to an end or an edge, scene units");
+    const bool is_ball = own.up == glm::vec3(0);
+    if (!is_ball) to.add("right", three(own.right), "from the centre to an end or an edge, scene units");
     if (row_of(row.type).is_aimed) {
       to.add("up", three(own.up), "to another edge");
       to.add("direction", three(own.direction), "the side to which it shines");
     } else {
-      to.add("radius", row.type == LightType::sphere ? own.right.x : own.up.x, "scene units");
+      to.add("radius", is_ball ? own.right.x : own.up.x, "scene units");
     }
   }
   if (placed) to.add("d", at.d, "distance, scene units");
