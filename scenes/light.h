@@ -35,10 +35,13 @@ inline constexpr LightTypeRow kLightTypes[] = {{"ambient", LightReach::everywher
                                                {"rectangle", LightReach::to_one_side, true, false, true},
                                                {"disk", LightReach::to_one_side, true, false, true}};
 
+/// What holds for all lights of a type.
 constexpr const LightTypeRow& row_of(LightType type) { return kLightTypes[size_t(type)]; }
+/// As scene files have it: `point`.
 constexpr std::string_view name_of(LightType type) { return row_of(type).name; }
 /// Whether lights of the type have a position, a distance to a surface, and a range.
 constexpr bool is_placed(LightType type) { return row_of(type).reach != LightReach::everywhere; }
+/// Whether light leaves a surface, which `right` and `up` of the light span.
 constexpr bool has_area(LightType type) { return row_of(type).has_area; }
 
 /// One light in world space. A light model reads the fields it names and no others.

@@ -60,6 +60,7 @@ inline constexpr size_t kMaterialMaps = 6;
 /// The keys of a material's maps in scene files, and the names of the maps, which are the keys without `_map`.
 inline constexpr std::string_view kMaterialMapKeys[kMaterialMaps] = {
     "color_map", "specular_map", "normal_map", "metallic_roughness_map", "emission_map", "occlusion_map"};
+/// The name of a map by its index, which is below kMaterialMaps: `color`.
 constexpr std::string_view map_name(size_t map) {
   const std::string_view key = kMaterialMapKeys[map];
   return key.substr(0, key.size() - std::string_view("_map").size());
