@@ -11,7 +11,7 @@ const Image* plane_named(const std::vector<NamedImage>& planes, const std::strin
   return nullptr;
 }
 
-/// Returns whether there is any.
+/// Leaves out where a plane holds one of the numbers. Returns whether it holds one anywhere.
 bool leave_out_where(const Image& ids, const compare::IgnoredIds& ignored, PixelMask& mask) {
   bool found = false;
   for (int y = 0; y < mask.height; ++y)

@@ -12,8 +12,8 @@ from pathlib import Path
 HEAD = """# How large the house is
 
 What a maintainer has to know, counted by `scripts/size_table.py .`, which writes this page. A test fails where a count
-has grown by more than one in fifty since it was written: growth is stated, not found later. *at first* is what stood on
-2026-11-22, before light was a program and before lights had areas; *goal* is where it is to go.
+has grown by more than one in fifty since it was written: growth is stated, not found later. *at first* is what stood
+before light was a program and before lights had areas; *goal* is where it is to go.
 
 | count | at first | now | goal |
 |---|---|---|---|
