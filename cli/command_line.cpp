@@ -186,6 +186,12 @@ void set_command_line(Command& command, std::span<const std::string> words) {
 
 }  // namespace
 
+void take_options(const CommandTable& table, std::span<const std::string> words) {
+  CommandReader reader(table, words);
+  if (reader.read()) throw usage("--help", "it is asked for among criteria", "leave it out");
+  reader.give();
+}
+
 Execution execution_of(const RenderOptions& options) {
   Execution execution = options.execution;
   execution.simd = options.simd;

@@ -82,7 +82,7 @@ FolderComparison as_row(const CompareOptions& options, const ComparedPictures& p
   row.reason = verdict_line(pictures);
   if (row.state != RowState::same) row.details = comparison_text(pictures);
   row.is_accepted = pictures.is_accepted;
-  return {options.reference, options.test, {row}, 0};
+  return {options.reference, options.test, {row}, {}, {}};
 }
 
 bool accepted(const CompareOptions& options, const PictureFile& test) {
@@ -95,6 +95,7 @@ bool accepted(const CompareOptions& options, const PictureFile& test) {
 }
 
 int compare_two_pictures(const CompareOptions& options) {
+  if (options.criteria_file) throw usage("--criteria", "it is by names within two folders", "give the options themselves");
   check_picture_outputs(options);
   std::error_code unknown;
   if (options.accept && !fs::exists(options.reference, unknown)) {

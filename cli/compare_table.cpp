@@ -7,8 +7,10 @@
 #include "cli/command_tables.h"
 #include "cli/mask_options.h"
 #include "cli/option_values.h"
+#include "cli/picture_rows.h"
 #include "core/error.h"
 #include "core/file_ending.h"
+#include "scenes/files/content/scene_files.h"
 
 namespace trueshade {
 namespace {
@@ -161,6 +163,43 @@ void add_criteria(CommandTable& table, CompareOptions& options) {
            kColorSpaceNames);
 }
 
+/// Gives criteria their delta, and their order.
+void settle_criteria(CompareOptions& options) {
+  std::vector<compare::Criterion>& criteria = options.rules.criteria;
+  std::stable_sort(criteria.begin(), criteria.end(),
+                   [](const auto& a, const auto& b) { return a.measure < b.measure; });
+  bool any_delta = false;
+  for (compare::Criterion& criterion : criteria)
+    if (compare::has_delta(criterion.measure)) criterion.delta = options.delta.value_or(0.0), any_delta = true;
+  if (options.delta && !any_delta)
+    throw usage("--delta", "it is what --pixels and --window let pass",
+                "add --pixels COUNT, or give --max-difference instead");
+}
+
+/// Words with spaces between; one in double quotes may hold some.
+std::vector<std::string> words_of_line(std::string_view line) {
+  std::vector<std::string> words;
+  for (size_t at = 0; (at = line.find_first_not_of(" \t\r", at)) != std::string_view::npos;) {
+    const bool is_quoted = line[at] == '"';
+    const size_t begin = at + (is_quoted ? 1 : 0),
+                 end = std::min(line.find_first_of(is_quoted ? "\"" : " \t\r", begin), line.size());
+    words.emplace_back(line.substr(begin, end - begin));
+    at = std::min(end + (is_quoted ? 1 : 0), line.size());
+  }
+  return words;
+}
+
+NamedCriteria criteria_of_line(const std::vector<std::string>& words, const CompareOptions& others) {
+  NamedCriteria named{words.front(), others};
+  named.options.rules.criteria.clear();
+  named.options.delta.reset();
+  CommandTable table{"compare", {}};
+  add_criteria(table, named.options);
+  take_options(table, std::span(words).subspan(1));
+  settle_criteria(named.options);
+  return named;
+}
+
 /// What of two pictures is compared.
 void add_parts(CommandTable& table, CompareOptions& options) {
   table.open_group = "What is compared";
@@ -237,6 +276,9 @@ CommandTable compare_table(CompareOptions& options) {
   add_switch(table, "--json", options.json, "Print all of it as one JSON document");
   add_quiet(table, options, "Print the verdict alone; say neither notes nor progress nor which files were written");
   add_criteria(table, options);
+  add_value(table, "--criteria", "FILE", options.criteria_file,
+            "Criteria of single pictures of two folders: lines of a pattern of names and the options above, of which "
+            "the first that fits a name goes before those of the command");
   add_parts(table, options);
   add_flip(table, options);
   add_threads(table, options.rules.threads, "Threads, 0 for one a core; never changes a figure");
@@ -255,16 +297,32 @@ CommandTable compare_table(CompareOptions& options) {
   return table;
 }
 
+std::vector<NamedCriteria> named_criteria(const CompareOptions& options) {
+  constexpr uint64_t kMostBytes = uint64_t(1) << 20;
+  std::vector<NamedCriteria> all;
+  if (!options.criteria_file) return all;
+  const Bytes bytes = read_user_file(*options.criteria_file, kMostBytes, {});
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  size_t number = 0;
+  for (size_t at = 0; at < text.size();) {
+    const size_t end = std::min(text.find('\n', at), text.size());
+    const std::vector<std::string> words = words_of_line(text.substr(at, end - at));
+    at = end + 1, ++number;
+    if (words.empty() || words.front().starts_with('#')) continue;
+    try {
+      all.push_back(criteria_of_line(words, options));
+    } catch (const Error& error) {
+      const std::string what = error.what();  // REASON (REMEDY)
+      const size_t open = what.rfind(" (");
+      throw Error(ErrorKind::bad_input, *options.criteria_file + ": line " + std::to_string(number),
+                  what.substr(0, open), what.substr(open + 2, what.size() - open - 3));
+    }
+  }
+  return all;
+}
+
 CompareOptions finished(CompareOptions options) {
-  std::vector<compare::Criterion>& criteria = options.rules.criteria;
-  std::stable_sort(criteria.begin(), criteria.end(),
-                   [](const auto& a, const auto& b) { return a.measure < b.measure; });
-  bool any_delta = false;
-  for (compare::Criterion& criterion : criteria)
-    if (compare::has_delta(criterion.measure)) criterion.delta = options.delta.value_or(0.0), any_delta = true;
-  if (options.delta && !any_delta)
-    throw usage("--delta", "it is what --pixels and --window let pass",
-                "add --pixels COUNT, or give --max-difference instead");
+  settle_criteria(options);
   check_mask(options.mask);
   if (options.bottom_up && options.accept)
     throw usage("--accept", "the test's file would be the reference, and its rows run the other way",

@@ -77,8 +77,8 @@ std::string pixel_text(const char* name, const std::optional<PixelValues>& pixel
   if (!pixel) return {};
   std::vector<std::vector<std::string>> rows = {{"  channel", "reference", "test", ""}};
   for (const PixelValues::Value& v : pixel->values)
-    if (!v.equal || pixel->values.size() <= kMostChannelsShown)
-      rows.push_back({"  " + printable(v.channel, Lines::one), v.reference, v.test, v.equal ? "" : "differs"});
+    if (!v.numbers.equal || pixel->values.size() <= kMostChannelsShown)
+      rows.push_back({"  " + printable(v.channel, Lines::one), v.reference, v.test, v.numbers.equal ? "" : "differs"});
   const std::string part = pixel->part.empty() ? "" : " of part " + printable(pixel->part, Lines::one);
   std::string text = std::string(name) + " at " + std::to_string(pixel->x) + ',' + std::to_string(pixel->y) + part +
                      ", from the top left\n";
@@ -149,7 +149,9 @@ std::string pixel_json(const PixelValues& pixel) {
                        .put("channel", v.channel)
                        .put("reference", v.reference)
                        .put("test", v.test)
-                       .put("equal", v.equal)
+                       .put("reference_value", v.numbers.reference)
+                       .put("test_value", v.numbers.test)
+                       .put("equal", v.numbers.equal)
                        .text());
   return JsonObject()
       .put("part", pixel.part)

@@ -1,6 +1,7 @@
 #pragma once
 // What a command takes, as rows. Reading a command line, --help, man pages and completions are all made of these.
 #include <functional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -84,6 +85,10 @@ OptionRow& add_choice(CommandTable& table, const char* names, const char* value_
                       const Names& choices) {
   return of_names(add_value(table, names, value_name, text, std::move(help)), choices);
 }
+
+/// Gives rows of a table what words of a command line say. Error(usage) as for the command itself, and for a word that is
+/// no option of the table.
+void take_options(const CommandTable& table, std::span<const std::string> words);
 
 /// Its rows are in --help-limits and in man pages, and not in --help, where they would be a third of all rows.
 inline constexpr const char* kLimitsGroup = "Limits";

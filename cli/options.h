@@ -202,6 +202,7 @@ struct CompareOptions : LimitedOptions {
   std::vector<std::string> of_flip;   ///< the options of FLIP that were given
   bool no_judge = false;              ///< values are compared, although the reference carries its scene
   std::vector<std::string> outputs;   ///< .png, .exr or .html; of folders .html and one folder
+  std::optional<std::string> criteria_file;  ///< of two folders: criteria by names (docs/compare.md)
   std::optional<std::string> junit;   ///< .xml
   bool accept = false;                ///< copy test pictures that do not pass over their references
   std::string command_line;           ///< as it was given, for a shell

@@ -1,5 +1,7 @@
 #include "cli/picture_rows.h"
 
+#include <fnmatch.h>
+
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -19,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char *kMapEnding = ".flip.png", *kPageEnding = ".html";  // behind a picture's name, in the folder of -o
 constexpr std::string_view kPictureEndings[] = {".exr",  ".png", ".hdr", ".pic", ".tif",
                                                 ".tiff", ".dds", ".npy", ".jpg", ".jpeg"};
 
@@ -47,7 +50,7 @@ RowState state_of(compare::Outcome outcome) {
 std::string values_text(const compare::PixelValues& pixel) {
   std::string text;
   for (const auto& value : pixel.values)
-    if (!value.equal)
+    if (!value.numbers.equal)
       text += (text.empty() ? ": " : ", ") + value.channel + ' ' + value.reference + " against " + value.test;
   return text;
 }
@@ -55,9 +58,9 @@ std::string values_text(const compare::PixelValues& pixel) {
 class FolderComparer {
  public:
   FolderComparer(const CompareOptions& options, bool pages)
-      : options_(options), pages_(pages), mask_(mask_file(options)) {}
+      : options_(options), pages_(pages), mask_(mask_file(options)), named_(named_criteria(options)) {}
 
-  PictureRow compare(const std::string& name, bool in_reference, bool in_test) const {
+  PictureRow compare(const std::string& name, bool in_reference, bool in_test) {
     const auto start = std::chrono::steady_clock::now();
     PictureRow row;
     row.name = name;
@@ -72,6 +75,14 @@ class FolderComparer {
     return row;
   }
 
+  /// Patterns by which no picture was compared.
+  std::vector<std::string> unused() const {
+    std::vector<std::string> patterns;
+    for (size_t i = 0; i < named_.size(); ++i)
+      if (!used_.contains(i)) patterns.push_back(named_[i].pattern);
+    return patterns;
+  }
+
  private:
   static void fail(const std::string& reason, int exit_code, PictureRow& row) {
     row.state = RowState::unreadable;
@@ -81,7 +92,7 @@ class FolderComparer {
   std::string reference(const PictureRow& row) const { return (fs::path(options_.reference) / row.name).string(); }
   std::string test(const PictureRow& row) const { return (fs::path(options_.test) / row.name).string(); }
 
-  void measure(bool in_reference, bool in_test, PictureRow& row) const {
+  void measure(bool in_reference, bool in_test, PictureRow& row) {
     std::error_code unknown;
     if (in_reference && in_test && fs::equivalent(reference(row), test(row), unknown))
       return fail("it is the very file of the reference, by a link, and passes whatever it holds",
@@ -114,8 +125,25 @@ class FolderComparer {
     compare_pair(row);
   }
 
-  void compare_pair(PictureRow& row) const {
-    const ComparedPictures pictures = compared_pictures(reference(row), test(row), options_, mask_);
+  /// With the criteria of the first pattern that the name fits.
+  const CompareOptions& options_of(const std::string& name) {
+    for (size_t i = 0; i < named_.size(); ++i) {
+      if (fnmatch(named_[i].pattern.c_str(), name.c_str(), 0) != 0) continue;
+      used_.insert(i);
+      return named_[i].options;
+    }
+    return options_;
+  }
+
+  /// Maps and pages of an earlier run, when the picture did not pass.
+  void remove_stale(const std::string& path) const {
+    std::error_code ignored;
+    for (const std::string& file : {path + kMapEnding, path + kPageEnding})
+      if (fs::is_regular_file(fs::symlink_status(file, ignored))) fs::remove(file, ignored);
+  }
+
+  void compare_pair(PictureRow& row) {
+    const ComparedPictures pictures = compared_pictures(reference(row), test(row), options_of(row.name), mask_);
     const compare::Comparison& c = pictures.comparison;
     row.state = pictures.judged.validation && trueshade::passes(pictures) ? RowState::within : state_of(c.outcome);
     row.reason = verdict_line(pictures);
@@ -129,11 +157,12 @@ class FolderComparer {
     for (const compare::ChannelDifferences& channel : c.differences.channels)
       row.largest = std::max(row.largest, channel.largest);
     if (c.flip) row.flip_mean = c.flip->mean;
-    if (passes(row)) return;
     for (const std::string& folder : options_.outputs) {
       const std::string path = (fs::path(folder) / row.name).string();
-      if (c.flip) write_differences(pictures, path + ".flip.png");
-      if (pages_) write_text(path + ".html", comparison_page(pictures, command_of(row)));
+      remove_stale(path);
+      if (passes(row)) continue;
+      if (c.flip) write_differences(pictures, path + kMapEnding);
+      if (pages_) write_text(path + kPageEnding, comparison_page(pictures, command_of(row)));
     }
   }
 
@@ -152,6 +181,8 @@ class FolderComparer {
   const CompareOptions& options_;
   const bool pages_;
   const std::optional<PictureFile> mask_;
+  const std::vector<NamedCriteria> named_;
+  std::set<size_t> used_;  // places in named_
 };
 
 }  // namespace
@@ -170,7 +201,7 @@ int FolderComparison::exit_code() const {
   return failures() > 0 ? 1 : 0;
 }
 
-std::set<std::string> pictures_in(const std::string& folder, uint64_t& passed_over) {
+std::set<std::string> pictures_in(const std::string& folder, std::set<std::string>& passed_over) {
   std::set<std::string> names;
   std::error_code failed;
   std::set<fs::path> visited;  // links may lead back
@@ -184,7 +215,7 @@ std::set<std::string> pictures_in(const std::string& folder, uint64_t& passed_ov
     if (has_picture_ending(entry->path()))
       names.insert(entry->path().lexically_relative(folder).generic_string());
     else
-      ++passed_over;
+      passed_over.insert(entry->path().string());
   }
   if (failed)
     throw Error(ErrorKind::io, folder, "cannot list it: " + failed.message(),
@@ -193,7 +224,7 @@ std::set<std::string> pictures_in(const std::string& folder, uint64_t& passed_ov
 }
 
 FolderComparison compared_folders(const CompareOptions& options, bool pages, const std::function<void(int, int)>& see) {
-  FolderComparison folders{options.reference, options.test, {}, 0};
+  FolderComparison folders{options.reference, options.test, {}, {}, {}};
   const std::set<std::string> of_reference = pictures_in(options.reference, folders.passed_over),
                               of_test = pictures_in(options.test, folders.passed_over);
   note_listed(options.reference, of_reference);
@@ -203,11 +234,12 @@ FolderComparison compared_folders(const CompareOptions& options, bool pages, con
   if (names.empty())
     throw Error(ErrorKind::bad_input, options.reference, "there is no picture in it, nor in " + options.test,
                 "name folders with .exr, .png, .hdr, .tif, .dds, .npy or .jpg in them");
-  const FolderComparer comparer(options, pages);
+  FolderComparer comparer(options, pages);
   for (const std::string& name : names) {
     folders.rows.push_back(comparer.compare(name, of_reference.contains(name), of_test.contains(name)));
     see(int(folders.rows.size()), int(names.size()));
   }
+  folders.unused = comparer.unused();
   std::stable_sort(folders.rows.begin(), folders.rows.end(), [](const PictureRow& a, const PictureRow& b) {
     return std::pair(a.state, a.largest) > std::pair(b.state, b.largest);
   });

@@ -35,15 +35,25 @@ bool passes(const PictureRow& row);
 struct FolderComparison {
   std::string reference, test;
   std::vector<PictureRow> rows;  ///< the worst first, then by name
-  uint64_t passed_over = 0;      ///< files of both whose names do not end as a picture's
+  std::set<std::string> passed_over;  ///< paths of files of both whose names do not end as a picture's
+  std::vector<std::string> unused;    ///< patterns of --criteria by which no picture was compared
 
   size_t failures() const;
   int exit_code() const;  ///< 0, 1, or that of the first picture that cannot be read
 };
 
-/// Relative names of the pictures in a folder and in those within; links to folders are not followed. Adds the number
+/// Relative names of the pictures in a folder and in those within; links to folders are not followed. Adds the paths
 /// of files whose names do not end as a picture's to `passed_over`. Error(io): a folder that cannot be listed.
-std::set<std::string> pictures_in(const std::string& folder, uint64_t& passed_over);
+std::set<std::string> pictures_in(const std::string& folder, std::set<std::string>& passed_over);
+
+/// A line of the file of --criteria.
+struct NamedCriteria {
+  std::string pattern;     ///< as a shell has them; * is any text, slashes too
+  CompareOptions options;  ///< those of the command, with the line's criteria in place of theirs
+};
+
+/// The lines of the command's --criteria; none without it. Error(bad_input) naming the line that means nothing.
+std::vector<NamedCriteria> named_criteria(const CompareOptions& options);
 
 /// Compares pictures of equal relative names, folders within folders too. Accepts, and writes maps of differences, and
 /// with `pages` comparison_page()s, into the folders of -o, as the options say. `see` is told how many of how many are

@@ -8,6 +8,18 @@
 namespace trueshade {
 namespace {
 
+/// `3, a.txt, b.txt and 1 more`.
+std::string listed(const std::set<std::string>& paths) {
+  constexpr size_t kShown = 4;
+  std::string text = std::to_string(paths.size());
+  size_t shown = 0;
+  for (const std::string& path : paths) {
+    if (shown++ == kShown) return text + " and " + std::to_string(paths.size() - kShown) + " more";
+    text += ", " + printable(path, Lines::one);
+  }
+  return text;
+}
+
 std::string row_number(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.4g", value);
@@ -18,6 +30,13 @@ std::string row_number(double value) {
 std::string row_reason(const PictureRow& row) {
   if (row.is_accepted) return "accepted: the test picture is the reference now";
   return row.not_accepted.empty() ? row.reason : row.reason + "; not accepted: " + row.not_accepted;
+}
+
+template <typename Strings>
+std::string strings_json(const Strings& strings) {
+  JsonArray array;
+  for (const std::string& text : strings) array.add_raw(json_string(text));
+  return array.text();
 }
 
 }  // namespace
@@ -63,9 +82,11 @@ std::string rows_text(const FolderComparison& folders) {
   std::string text = "verdict     " + verdict_of_rows(folders) + '\n';
   text += "reference   " + printable(folders.reference, Lines::one) + '\n';
   text += "test        " + printable(folders.test, Lines::one) + '\n';
-  if (folders.passed_over > 0)
-    text += "note        files whose names do not end as a picture's were passed over: " +
-            std::to_string(folders.passed_over) + '\n';
+  if (!folders.passed_over.empty())
+    text += "note        files whose names do not end as a picture's were passed over: " + listed(folders.passed_over) +
+            '\n';
+  for (const std::string& pattern : folders.unused)
+    text += "note        --criteria: no picture was compared by " + printable(pattern, Lines::one) + '\n';
   if (same < all) {
     char line[160];
     text += "\noutcome     unequal pixels    largest  FLIP mean  " + ("picture" + std::string(name_width - 5, ' ')) +
@@ -101,7 +122,9 @@ std::string rows_json(const FolderComparison& folders) {
   }
   JsonObject json;
   json.put("reference", folders.reference).put("test", folders.test).put("passes", folders.failures() == 0);
-  json.put("failures", uint64_t(folders.failures())).put("passed_over", folders.passed_over);
+  json.put("failures", uint64_t(folders.failures())).put("passed_over", uint64_t(folders.passed_over.size()));
+  json.put_raw("passed_over_files", strings_json(folders.passed_over));
+  if (!folders.unused.empty()) json.put_raw("unused_criteria", strings_json(folders.unused));
   return json.put_raw("pictures", rows.text()).text() + '\n';
 }
 

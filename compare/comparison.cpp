@@ -43,7 +43,7 @@ PixelValues values_at(const Comparison& c, Place place) {
     const bool decode_reference = c.decoding.reference && color, decode_test = c.decoding.test && color;
     pixel.values.push_back({pair.name, stored_text(*pair.reference, at, decode_reference),
                             stored_text(*pair.test, at, decode_test),
-                            PairReader(pair, decode_reference, decode_test).at(at).equal});
+                            PairReader(pair, decode_reference, decode_test).at(at)});
   }
   return pixel;
 }

@@ -8,6 +8,7 @@
 #include "compare/differences.h"
 #include "compare/flip.h"
 #include "compare/pairing.h"
+#include "compare/stored_value.h"
 
 namespace trueshade::compare {
 
@@ -27,7 +28,7 @@ struct CompareRules {
 struct PixelValues {
   struct Value {
     std::string channel, reference, test;  ///< stored_text()
-    bool equal;
+    NumberPair numbers;                    ///< what is compared
   };
   std::string part;  ///< empty where there is one
   int x, y;          ///< from the top left

@@ -37,7 +37,7 @@ std::string hash_of_content(int file) {
 
 std::string hash_of_listing(const std::string& folder) {
   try {
-    uint64_t passed_over = 0;
+    std::set<std::string> passed_over;
     return hash_of_names(pictures_in(folder, passed_over));
   } catch (const Error&) {
     return std::string(kAbsent);

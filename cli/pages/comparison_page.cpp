@@ -64,7 +64,7 @@ Places largest_differences(const PageLayer& from, const PageLayer& to, const Pix
 PixelExplanation explained(const PixelValues& pixel, const std::string& title) {
   std::string text;
   for (const PixelValues::Value& v : pixel.values)
-    if (!v.equal) text += v.channel + ": reference " + v.reference + ", test " + v.test + "\n";
+    if (!v.numbers.equal) text += v.channel + ": reference " + v.reference + ", test " + v.test + "\n";
   return {pixel.x, pixel.y, title, text, {}};
 }
 

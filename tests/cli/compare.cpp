@@ -477,7 +477,7 @@ TEST_CASE("folders are compared by relative names: one table, the worst first, m
   const Outcome outcome = run_compare(folder, {"ref", "test"});
   CHECK(outcome.exit_code == 1);
   says(outcome, "verdict     3 of 4 pictures do not pass");
-  says(outcome, "names do not end as a picture's were passed over: 1");
+  says(outcome, "names do not end as a picture's were passed over: 1, test/notes.txt\n");
   const size_t extra = outcome.out.find("extra.exr"), missing = outcome.out.find("missing.exr"),
                differs = outcome.out.find("b/differs.exr"), same = outcome.out.find("same        1 picture");
   CHECK(extra < missing);
@@ -492,6 +492,7 @@ TEST_CASE("folders are compared by relative names: one table, the worst first, m
   says(damaged, "unreadable");
   const auto json = nlohmann::json::parse(run_compare(folder, {"ref", "test", "--json"}).out);
   CHECK(json.at("failures") == 3);
+  CHECK(json.at("passed_over_files") == nlohmann::json::array({"test/notes.txt"}));
   CHECK(json.at("pictures").at(0).at("name") == "b/differs.exr");
 
   // A link to the golden picture holds whatever that holds.
@@ -511,6 +512,10 @@ TEST_CASE("folders are compared by relative names: one table, the worst first, m
     const std::string name = row.at("name");
     auto alone = nlohmann::json::parse(run_compare(folder, {"ref/" + name, "test/" + name, "--json"}).out);
     CHECK(row.at("comparison").at("worst") == alone.at("worst"));
+    for (const auto& value : alone.at("worst").at("values")) {  // as numbers too
+      CHECK(value.at("reference_value") == 0.25);
+      CHECK(value.at("test_value") == 0.5);
+    }
     CHECK(row.at("comparison").at("channels") == alone.at("channels"));
   }
 }
@@ -606,6 +611,69 @@ TEST_CASE("of folders -o takes maps of the pictures that do not pass") {
   CHECK(run_compare(folder, {"ref", "test", "-o", "report.htm"}).err.find("end its name in .html") !=
         std::string::npos);
   CHECK_FALSE(std::filesystem::exists(folder.path("report.htm")));
+}
+
+TEST_CASE("a picture that passes by now leaves no map and no page of an earlier run, and other files stay") {
+  const ScratchFolder folder;
+  write_folders(folder);
+  const auto run = [&folder] {
+    return run_compare(folder, {"ref", "test", "-o", "maps", "-o", "page.html"}).exit_code;
+  };
+  CHECK(run() == 1);
+  const std::string map = folder.path("maps/b/differs.exr.flip.png"), page = folder.path("maps/b/differs.exr.html");
+  REQUIRE(std::filesystem::exists(map));
+  REQUIRE(std::filesystem::exists(page));
+  folder.write("maps/b/mine.png", "mine");
+  std::filesystem::copy_file(folder.path("ref/b/differs.exr"), folder.path("test/b/differs.exr"),
+                             std::filesystem::copy_options::overwrite_existing);
+  CHECK(run() == 1);  // one is missing, and one more
+  CHECK_FALSE(std::filesystem::exists(map));
+  CHECK_FALSE(std::filesystem::exists(page));
+  CHECK(content_of(folder.path("maps/b/mine.png")) == "mine");
+}
+
+TEST_CASE("compare --criteria: the first pattern that fits a name has a picture's criteria") {
+  const ScratchFolder folder;
+  const EnginePlane dark = even_plane(8, 6, 3, 0.25), light = even_plane(8, 6, 3, 0.5);
+  for (const char* name : {"noise/a b.exr", "noise/c.exr", "flat.exr"}) {
+    folder.write(std::string("ref/") + name, ""), folder.write(std::string("test/") + name, "");
+    write_floats(folder.path(std::string("ref/") + name), dark, kRgb);
+    write_floats(folder.path(std::string("test/") + name), light, kRgb);
+  }
+  const auto outcomes = [&folder](const char* criteria) {
+    folder.write("criteria.txt", criteria);
+    const Outcome outcome =
+        run_compare(folder, {"ref", "test", "--criteria", "criteria.txt", "--max-difference", "0.1", "--json"});
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code < 2);
+    return nlohmann::json::parse(outcome.out);
+  };
+  const auto passing = [](const nlohmann::json& json) {
+    std::vector<std::string> names;
+    for (const auto& row : json.at("pictures"))
+      if (row.at("passes").get<bool>()) names.push_back(row.at("name"));
+    std::sort(names.begin(), names.end());
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  CHECK(passing(outcomes("")).empty());
+  CHECK(passing(outcomes("# noise\n\nnoise/*  --max-difference 0.3\r\n")) == Names{"noise/a b.exr", "noise/c.exr"});
+  CHECK(passing(outcomes("\"noise/a b.exr\" --pixels 48 --delta 1/8")) == Names{"noise/a b.exr"});
+  const auto first = outcomes("noise/c.exr --max-difference 0.2\n*.exr --max-difference 1/4\nabsent* --psnr 30\n");
+  CHECK(passing(first) == Names{"flat.exr", "noise/a b.exr"});
+  CHECK(first.at("unused_criteria") == nlohmann::json::array({"absent*"}));
+
+  const auto refused = [&folder](const char* criteria, const char* about) {
+    folder.write("criteria.txt", criteria);
+    check_refused(run_compare(folder, {"ref", "test", "--criteria", "criteria.txt"}), 3, about);
+  };
+  refused("\na --max-difference\n", "criteria.txt: line 2: --max-difference: its value is missing");
+  refused("a --max-diffrence 1\n", "criteria.txt: line 1: --max-diffrence: there is no such option");
+  refused("a b\n", "line 1: command line: 'b' is one argument too many");
+  refused("a --delta 1\n", "line 1: --delta: it is what --pixels and --window let pass");
+  refused("a -o b\n", "line 1: -o: there is no such option");
+  check_refused(run_compare(folder, {"ref", "test", "--criteria", "absent.txt"}), 5, "absent.txt");
+  check_refused(run_compare(folder, {"ref/flat.exr", "test/flat.exr", "--criteria", "criteria.txt"}), 2, "--criteria");
 }
 
 TEST_CASE("a bound that no difference of codes is beyond is refused, and of floats it is one") {
