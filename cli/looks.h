@@ -44,8 +44,9 @@ enum class ChosenLooks : uint8_t { by_scene, never };
 Looks bring_to_looks(const PipelineOptions& options, const Pipeline& pipeline, ChosenLooks chosen, Scene& scene,
                      const CachedScene* stored = nullptr);
 
-/// Of looks with nothing left to choose; what does nothing where they have no exposure.
-DisplayTransform display_of(const Looks& looks);
+/// Of looks with nothing left to choose, and the pipeline that they were brought to; what does nothing where they have
+/// no exposure, and no transparent background behind averaged samples.
+DisplayTransform display_of(const Looks& looks, const Pipeline& pipeline);
 
 /// As options with a space before each, but for the samples, which are in the pipeline; empty where there are none.
 std::string looks_text(const Looks& looks);

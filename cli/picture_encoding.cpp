@@ -12,7 +12,7 @@ ImageFileOptions file_options(const RenderOptions& options, const Pipeline& pipe
   if (pipeline.view != ImageView::lit || pipeline.post.encode == PostChain::Encode::srgb)
     file.values = PictureValues::display_codes;
   if (options.encode) file.encoding = *options.encode;
-  file.display = display_of(options.looks);
+  file.display = display_of(options.looks, pipeline);
   file.threads = options.execution.threads;
   return file;
 }

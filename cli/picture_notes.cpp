@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <vector>
 
+#include "cli/preparation.h"
 #include "core/fp_env.h"
 #include "core/image_rows.h"
 #include "shading/output/view_image.h"
@@ -120,7 +122,8 @@ std::string clamp_note(const Pipeline& pipeline, const Image& picture, bool to_p
   constexpr size_t kLeastPercent = 5;
   const FormatInfo layout = info(picture.format);
   const bool floats = layout.number_class == NumberClass::floating;
-  if (pipeline.view != ImageView::lit || pipeline.post.active() || (floats && !to_png)) return {};
+  if (pipeline.view != ImageView::lit || pipeline.post.tone_map != PostChain::ToneMap::none || (floats && !to_png))
+    return {};
   if (!floats && layout.number_class != NumberClass::unorm) return {};
   const size_t clamped = floats ? pixels_above_1(picture) : clamped_pixels(picture);
   const size_t pixels = size_t(picture.width) * size_t(picture.height);
@@ -149,6 +152,31 @@ std::string nan_note(const Pipeline& pipeline, const Image& picture) {
          "says where it first became so)";
 }
 
+/// Says so where a model's camera sees next to nothing of it.
+std::string nearly_empty_note(const Scene& scene, const FrameStats& stats) {
+  constexpr uint64_t kLeastOf = 500;
+  const uint64_t seen = stats.covered_pixels + stats.transparent_fragments;
+  if (!scene.is_model || seen == 0 || seen >= stats.pixels / kLeastOf) return {};
+  return "The camera sees next to nothing: " + std::to_string(seen) + " of " + std::to_string(stats.pixels) +
+         " pixels are covered (--orbit 30,20 shows all that is drawn)";
+}
+
+/// Says so where an orthographic camera of a model has another shape than the picture.
+std::string stretched_note(const Scene& scene, const Pipeline& pipeline) {
+  constexpr double kLeast = 1.01;
+  const auto& matrix = scene.camera.clip_from_world;
+  if (!scene.is_model || !scene.camera.matrix_has_gl_range || !matrix) return {};
+  const auto row = [&m = *matrix](size_t r) { return glm::dvec3(m[r], m[4 + r], m[8 + r]); };
+  if (row(3) != glm::dvec3(0.0)) return {};
+  const FpScope fp;
+  const double wide = glm::length(row(1)) / glm::length(row(0)), of_picture = aspect_of(pipeline);
+  if (!(wide > 0.0) || std::max(wide / of_picture, of_picture / wide) < kLeast) return {};
+  const int width = wide >= 1.0 ? pipeline.width : std::max(1, int(std::lround(pipeline.height * wide))),
+            height = wide >= 1.0 ? std::max(1, int(std::lround(pipeline.width / wide))) : pipeline.height;
+  return "The file's orthographic camera has another shape than the picture, so that all is stretched (--size " +
+         std::to_string(width) + 'x' + std::to_string(height) + " has the camera's)";
+}
+
 /// Says so where the boxes of the view light-boxes hide nearly all of what is drawn.
 std::string hidden_note(const Pipeline& pipeline, const Image& picture) {
   constexpr int kHiddenPercent = 90;
@@ -173,7 +201,8 @@ std::vector<std::string> picture_notes(const Scene& scene, const Pipeline& pipel
                                        bool exposed) {
   std::vector<std::string> notes;
   for (std::string note : {black_note(scene, pipeline, frame), clamp_note(pipeline, frame.color, to_png, exposed),
-                           nan_note(pipeline, frame.color), hidden_note(pipeline, frame.color)})
+                           nan_note(pipeline, frame.color), hidden_note(pipeline, frame.color),
+                           nearly_empty_note(scene, frame.stats), stretched_note(scene, pipeline)})
     if (!note.empty()) notes.push_back(std::move(note));
   return notes;
 }

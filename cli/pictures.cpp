@@ -129,7 +129,7 @@ void hand_out_streamed(const RenderOptions& options, const std::vector<std::stri
 /// Makes the files of a frame that is drawn, and the texts that were asked for.
 void hand_out(const RenderOptions& options, const std::vector<std::string>& paths, RenderedFrame& result,
               PictureSink& sink) {
-  const bool as_it_is = display_of(options.looks) == DisplayTransform();
+  const bool as_it_is = display_of(options.looks, result.pipeline) == DisplayTransform();
   const bool to_png =
       as_it_is && std::any_of(paths.begin(), paths.end(), [](const auto& path) { return has_ending(path, ".png"); });
   if (result.cube_map.empty())  // a face may well show nothing

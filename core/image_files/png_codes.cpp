@@ -75,7 +75,7 @@ PngCodes::PngCodes(const Image& image, const ImageFileOptions& options)
                                                                                               : PngTag::srgb),
       as_stored_(transfer_ == Transfer::stored_code && layout_.bytes_per_channel == 1) {
   assert(layout_.number_class != NumberClass::integer);
-  if (as_stored_ || layout_.bits[0] > kMostTableBits) return;
+  if (as_stored_ || display_.divides_by_alpha || layout_.bits[0] > kMostTableBits) return;
   for (int channel = 0; channel < channels_; ++channel) of_stored_.push_back(table_of(channel));
 }
 
@@ -105,13 +105,13 @@ uint16_t PngCodes::code_of_value(double value, Transfer transfer) const {
   return uint16_t(std::nearbyint(65535.0 * coded));
 }
 
-uint16_t PngCodes::code_of_stored(uint32_t stored, int channel) const {
+uint16_t PngCodes::code_of_stored(uint32_t stored, int channel, double alpha_behind) const {
   const bool alpha = channel == 3, tabulated = layout_.bits[size_t(channel)] <= kMostTableBits;
   if (tabulated && layout_.number_class == NumberClass::unorm && (alpha || transfer_ == Transfer::stored_code)) {
     const uint32_t largest = layout_.largest_code(channel), most = bits_ == 8 ? 255 : 65535;
     return uint16_t((stored * most + largest / 2) / largest);  // the PNG specification's (12.4) linear equation
   }
-  const double value = value_of_code(layout_, channel, stored);
+  const double value = value_of_code(layout_, channel, stored) / (alpha ? 1.0 : alpha_behind);
   if (alpha) return code_of_value(double(float(value)), Transfer::none);
   return code_of_value(display_ == DisplayTransform() ? double(float(value)) : shown_light(value, display_), transfer_);
 }
@@ -130,9 +130,16 @@ void PngCodes::row(int y, uint8_t* out) const {
   std::vector<uint32_t> stored(size_t(image_.width) * size_t(channels_));
   read_stored(image_, y, stored);
   const bool tabulated = !of_stored_.empty(), wide = bits_ == 16;
+  const bool divides = display_.divides_by_alpha && channels_ == 4;
   int channel = 0;
-  for (const uint32_t bits : stored) {
-    const uint16_t code = tabulated ? of_stored_[size_t(channel)][bits] : code_of_stored(bits, channel);
+  double alpha = 1.0;
+  for (size_t i = 0; i < stored.size(); ++i) {
+    const uint32_t bits = stored[i];
+    if (divides && channel == 0) {
+      alpha = value_of_code(layout_, 3, stored[i + 3]);
+      if (!(alpha > 0.0)) alpha = 1.0;
+    }
+    const uint16_t code = tabulated ? of_stored_[size_t(channel)][bits] : code_of_stored(bits, channel, alpha);
     if (wide) *out++ = uint8_t(code >> 8);
     *out++ = uint8_t(code);
     channel = channel + 1 == channels_ ? 0 : channel + 1;

@@ -43,7 +43,7 @@ class PngCodes {
   static Transfer transfer_of(const FormatInfo& layout, const ImageFileOptions& options, bool transforms);
   static Transfer transfer_without_transform(const FormatInfo& layout, const ImageFileOptions& options);
   uint16_t code_of_value(double value, Transfer transfer) const;
-  uint16_t code_of_stored(uint32_t stored, int channel) const;
+  uint16_t code_of_stored(uint32_t stored, int channel, double alpha = 1.0) const;
   std::vector<uint16_t> table_of(int channel) const;
 
   const Image& image_;

@@ -284,6 +284,11 @@ std::vector<ObjectReader::Part> ObjectReader::parts_of_models(const std::string&
   Scene model = is_gltf_name(file) ? scene_from_gltf(bytes, path, left, decode_, {}, GltfTangents::left_out)
                                    : scene_from_obj(bytes, path, left, decode_, missing);
   tell_passed_over(model.passed_over, scene_);
+  if (is_gltf_name(file) && std::any_of(model.materials.begin(), model.materials.end(),
+                                        [](const Material& material) { return material.normal_map.used(); }))
+    scene_.notes.push_back("Normal maps of " + file +
+                           " follow the texture coordinates, because a scene file draws it without its tangents; "
+                           "drawn by itself, it has them");
   GltfGeometry geometry = geometry_of(std::move(model));
   const uint32_t first_material = uint32_t(scene_.materials.size());
   const int32_t first_texture = int32_t(scene_.textures.size());

@@ -126,6 +126,8 @@ void check_codes(const ScratchFolder& folder, const Image& image, const Bytes& p
     const int channel = int(i % size_t(layout.channels)), pixel = int(i / size_t(layout.channels));
     const int x = pixel % image.width, y = pixel / image.width;
     long double value = image.value(x, y, channel);
+    const long double alpha = layout.channels == 4 ? image.value(x, y, 3) : 1;
+    if (channel < 3 && display.divides_by_alpha && alpha > 0) value /= alpha;
     if (channel < 3) value = shown_by(display, value);
     value = value > 1 ? 1 : value > 0 ? value : 0;
     if (expected == Expected::encoded && channel < 3) value = srgb_by_pow(value);
@@ -173,10 +175,15 @@ TEST_CASE("raw, a PNG holds every target's values without a transfer function, a
   }
 }
 
-TEST_CASE("light is scaled and passes the tone curve before a PNG holds it, whatever the target and the encoding") {
+TEST_CASE(
+    "light is divided by alpha, scaled and passes the tone curve before a PNG holds it, whatever the target and the "
+    "encoding") {
   const ScratchFolder folder;
   for (const Format format : kTargetFormats)
-    for (const DisplayTransform& display : {DisplayTransform{0.25, ToneCurve::clip}, {3.0, ToneCurve::filmic}})
+    for (const DisplayTransform& display : {DisplayTransform{0.25, ToneCurve::clip},
+                                            {3.0, ToneCurve::filmic},
+                                            {1.0, ToneCurve::clip, true},
+                                            {0.5, ToneCurve::filmic, true}})
       for (const PngEncoding encoding : {PngEncoding::by_values, PngEncoding::srgb, PngEncoding::raw}) {
         const Image image = codes_image(format);
         ImageFileOptions options = encoded_as(encoding);

@@ -380,6 +380,36 @@ TEST_CASE("A model's background is opaque, and none where a preset or a pipeline
   CHECK(corner_of(pictures.picture("whole.json", {}))[3] == 0);
 }
 
+TEST_CASE("Smooth edges of a model before no background have the model's own colour, and a share of its alpha") {
+  const Pictures pictures;
+  pictures.write("flat.gltf",
+                 model_text(kFromTheFront, 3, kClay + std::string(R"(, "extensions": {"KHR_materials_unlit": {}})")));
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{}, {"--exposure", "-1"}, {"--target", "rgba8"}, {"--samples", "16"}}) {
+    std::vector<std::string> words{"--background", "none"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Image image = pictures.picture("flat.gltf", words);
+    std::vector<uint32_t> inner(3);
+    int edges = 0;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        if (image.code(x, y, 3) == 255)
+          for (int c = 0; c < 3; ++c) inner[size_t(c)] = image.code(x, y, c);
+    REQUIRE(inner[0] > 40);
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) {
+        if (image.code(x, y, 3) == 0 || image.code(x, y, 3) == 255) continue;
+        ++edges;
+        for (int c = 0; c < 3; ++c) REQUIRE(std::abs(int(image.code(x, y, c)) - int(inner[size_t(c)])) <= 4);
+      }
+    CHECK(edges > 20);
+  }
+  // Its values are no target's, and so no judge takes them for one.
+  pictures.picture("flat.gltf", {"--background", "none"}, "cut.png");
+  pictures.write_other("other.png", "cut.png");
+  CHECK(has(pictures.run({"compare", "cut.png", "other.png"}).out, "--background none has changed them"));
+}
+
 TEST_CASE("A model of PLY stands on a ground, and before a background that is asked for it does not") {
   const Pictures pictures;
   pictures.write("model.ply",

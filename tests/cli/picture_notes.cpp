@@ -74,6 +74,44 @@ TEST_CASE("Pixels at the largest value of the target are counted, and of a float
   CHECK_FALSE(has(said_of(kLamp), "largest value"));
 }
 
+TEST_CASE("Averaged samples that are cut off are counted too") {
+  const std::string bright =
+      R"("lights": [{"type": "point", "position": [0, 2, 4], "range": 9, "color": [90, 90, 90]}])";
+  CHECK(has(said_of(bright, {"--target", "rgba8", "--samples", "4"}), "the largest value of rgba8"));
+  CHECK(has(said_of(bright, {"--target", "rgba16f", "--samples", "4", "-o", "x.png"}), "have a channel above 1"));
+}
+
+TEST_CASE("A model's camera that sees next to nothing, or has another shape than the picture, is told of") {
+  const ScratchFolder folder;
+  const auto said = [&folder](const std::string& camera, const std::string& size, const std::string& away) {
+    folder.write("m.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+      "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0, )" +
+                               away + R"(]}],
+      "cameras": [)" + camera +
+                               R"(],
+      "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+      "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                     "min": [0, 0, 0], "max": [1, 1, 0]}],
+      "bufferViews": [{"buffer": 0, "byteLength": 36}],
+      "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,)"
+                               R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+    const Outcome outcome = run_command({"render", "m.gltf", "--size", size, "--hash"}, folder.path(""));
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    return outcome.err;
+  };
+  const std::string perspective = R"({"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}})",
+                    wide =
+                        R"({"type": "orthographic", "orthographic": {"xmag": 2, "ymag": 1, "znear": 0, "zfar": 99}})";
+  CHECK(has(said(perspective, "160x120", "60"), "note: The camera sees next to nothing: "));
+  CHECK_FALSE(has(said(perspective, "160x120", "3"), "next to nothing"));
+  CHECK(has(said(wide, "160x160", "3"),
+            "orthographic camera has another shape than the picture, so that all is stretched (--size 160x80 has"));
+  CHECK(has(said(wide, "160x40", "3"), "(--size 160x80 has"));
+  CHECK_FALSE(has(said(wide, "160x80", "3"), "stretched"));
+  CHECK_FALSE(has(said(perspective, "160x40", "3"), "stretched"));
+}
+
 TEST_CASE("Lights whose volumes hold the eye are counted where back faces are culled, and nowhere else") {
   const auto said = [](const Arguments& more) {
     Arguments arguments{"render", "builtin:sphere", "--size", "16x12", "--hash"};

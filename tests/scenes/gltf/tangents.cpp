@@ -75,6 +75,21 @@ TEST_CASE("tangents survive an export") {
   CHECK_FALSE(written_and_loaded(without).meshes.at(0).has_tangents());
 }
 
+TEST_CASE("a scene file that draws a model without its tangents says so, once, where a normal map shows it") {
+  const auto notes = [](const std::string& material) {
+    const ScratchFolder folder;
+    folder.write("a.gltf", triangle().gltf(lists(kAll, material)));
+    folder.write("s.json", R"({"version": 1, "objects": [{"geometry": "a.gltf"}, {"geometry": "a.gltf"}]})");
+    std::vector<std::string> found = load_scene(folder.path("s.json"), {}, decode_plain).notes;
+    std::erase_if(found, [](const std::string& note) { return note.find("tangents") == std::string::npos; });
+    return found;
+  };
+  const std::vector<std::string> said = notes(kBumps);
+  REQUIRE(said.size() == 1);
+  CHECK(said[0].starts_with("Normal maps of a.gltf follow the texture coordinates"));
+  CHECK(notes(R"("name": "level")").empty());
+}
+
 TEST_CASE("without normals the tangents of a file are left out, and made along the flat ones") {
   const Scene scene = loaded(triangle().gltf(lists(R"("POSITION": 0, "TEXCOORD_0": 2, "TANGENT": 3)", kBumps)));
   for (size_t v = 0; v < 3; ++v) CHECK(tangent(scene.meshes.at(0), v) == Four{1, 0, 0, 1});
