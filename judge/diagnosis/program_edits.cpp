@@ -49,6 +49,8 @@ class EditList {
     of_parameters();
     for (const auto& step : steps_) nodes_ = step, of_constants();
     for (const auto& step : steps_) nodes_ = step, of_value();
+    of_albedo();
+    for (const auto& step : steps_) nodes_ = step, of_further_factors();
     for (const auto& step : steps_) nodes_ = step, of_factor();
     for (const auto& step : steps_) nodes_ = step, of_operands();
     return std::move(edits_);
@@ -113,7 +115,10 @@ class EditList {
       case Op::pow:
         return alone(0, "leaves out a power");
       case Op::select:
-        if (normalizes()) return number(1, "leaves a vector as long as it is, where it should normalize it");
+        if (normalizes()) {
+          number(1, "leaves a vector as long as it is, where it should normalize it");
+          return number(0.5, "halves a vector where it should normalize it");
+        }
         alone(1, "takes a condition for always true");
         return alone(2, "takes a condition for never true");
       default:
@@ -160,6 +165,43 @@ class EditList {
       nodes_ = {id};
       ProgramEdit& edit = add(ProgramChange::scaled, name.substr(name.find('.') + 1));
       edit.number = 1, edit.fitted = true, edit.is_parameter = true;
+    }
+  }
+
+  /// Albedo that is encoded once too often or once too few, by sRGB or by the power of 2.2 that stands for it.
+  void of_albedo() {
+    nodes_.clear();
+    for (NodeId id = 0; id < p_.nodes.size(); ++id)
+      if (at(id).op == Op::input && p_.inputs[at(id).bits].name.starts_with("surface.albedo.") &&
+          !p_.inputs[at(id).bits].name.ends_with(".w"))
+        nodes_.push_back(id);
+    if (nodes_.empty()) return;
+    uint32_t line = 0;  // that reads it
+    for (NodeId id = NodeId(p_.nodes.size()); id-- > 0;)
+      for (const NodeId operand : at(id).operands())
+        if (at(id).line != 0 && std::find(nodes_.begin(), nodes_.end(), operand) != nodes_.end()) line = at(id).line;
+    if (line == 0) return;
+    const auto changed = [&](ProgramChange change, double power, const char* text) {
+      ProgramEdit& edit = add(change, text);
+      edit.number = power, edit.line = line;
+    };
+    changed(ProgramChange::srgb_encoded, 0, "has albedo sRGB-encoded where it should have linear light");
+    changed(ProgramChange::srgb_encoded, 1 / 2.2, "has albedo to the power of 1/2.2 where it should have linear light");
+    changed(ProgramChange::srgb_decoded, 0, "decodes albedo from sRGB once too often");
+    changed(ProgramChange::srgb_decoded, 2.2, "has albedo to the power of 2.2 once too often");
+  }
+
+  /// A cosine, say, as one factor more.
+  void of_further_factors() {
+    if (first().type != Type::f32 || (first().op != Op::f_mul && first().op != Op::f_div && first().op != Op::pow))
+      return;
+    for (const auto& step : steps_) {
+      const Op op = at(step[0]).op;
+      if (step.size() != 1 || (op != Op::f_max && op != Op::f_min && op != Op::f_mul)) continue;
+      if (step[0] >= nodes_[0] || at(step[0]).type != Type::f32 || !keeps_rate(nodes_[0], step[0])) continue;
+      ProgramEdit& edit = add(ProgramChange::times_other, "has the value of line " + std::to_string(at(step[0]).line) +
+                                                              " as a factor that it should not have");
+      edit.others.assign(nodes_.size(), step[0]);
     }
   }
 
@@ -231,6 +273,28 @@ Program edited(const Program& program, const ProgramEdit& edit) {
     node.bits = std::bit_cast<uint32_t>(float(x));
     return push(node);
   };
+  const auto made = [&](Op op, Type type, NodeId a, NodeId b, NodeId c) {
+    ProgramNode node;
+    node.op = op, node.type = type, node.operand = {a, b, c};
+    return push(node);
+  };
+  const auto made_of_two = [&](Op op, NodeId a, NodeId b) { return made(op, Type::f32, a, b, kNoNode); };
+  // IEC 61966-2-1, or a power in its place.
+  const auto encoded = [&](NodeId x, double power) {
+    if (power != 0) return made_of_two(Op::pow, x, constant(power));
+    const NodeId low = made_of_two(Op::f_mul, x, constant(12.92)), root = made_of_two(Op::pow, x, constant(1 / 2.4)),
+                 high = made_of_two(Op::f_sub, made_of_two(Op::f_mul, root, constant(1.055)), constant(0.055));
+    const NodeId is_low = made(Op::f_lt, Type::boolean, x, constant(0.0031308), kNoNode);
+    return made(Op::select, Type::f32, is_low, low, high);
+  };
+  const auto decoded = [&](NodeId x, double power) {
+    if (power != 0) return made_of_two(Op::pow, x, constant(power));
+    const NodeId low = made_of_two(Op::f_mul, x, constant(1 / 12.92)),
+                 base = made_of_two(Op::f_mul, made_of_two(Op::f_add, x, constant(0.055)), constant(1 / 1.055)),
+                 high = made_of_two(Op::pow, base, constant(2.4));
+    const NodeId is_low = made(Op::f_lt, Type::boolean, x, constant(0.04045), kNoNode);
+    return made(Op::select, Type::f32, is_low, low, high);
+  };
   const auto powered = [&](NodeId value, Op op) {
     ProgramNode node;
     node.op = op, node.operand = {value, op == Op::f_mul ? value : kNoNode, kNoNode};
@@ -269,6 +333,15 @@ Program edited(const Program& program, const ProgramEdit& edit) {
         now[id] = push(product);
         continue;
       }
+      case ProgramChange::times_other:
+        now[id] = made_of_two(Op::f_mul, push(node), now[edit.others[size_t(place - edit.nodes.begin())]]);
+        continue;
+      case ProgramChange::srgb_encoded:
+        now[id] = encoded(push(node), edit.number);
+        continue;
+      case ProgramChange::srgb_decoded:
+        now[id] = decoded(push(node), edit.number);
+        continue;
       case ProgramChange::square_of_operand:
         node.operand[edit.operand] = powered(node.operand[edit.operand], Op::f_mul);
         break;

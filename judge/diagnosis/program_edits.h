@@ -14,18 +14,21 @@ enum class ProgramChange : uint8_t {
   number,            ///< the value is a number
   constant_operand,  ///< an operand that is a constant is another number
   other_operand,     ///< an operand is the value of another step
+  times_other,       ///< the value times that of another step
   scaled,            ///< the value times a number
   square,            ///< the square of the value
   root,              ///< its root
   square_of_operand,
   root_of_operand,
+  srgb_encoded,  ///< the value as sRGB has it; with a `number` its power
+  srgb_decoded,  ///< the light of the value as an sRGB one; with a `number` its power
 };
 
 /// One change of all nodes that a step of the source became: of the components of a vector, say.
 struct ProgramEdit {
   ProgramChange change = ProgramChange::other_operation;
   std::vector<programs::NodeId> nodes;   ///< ascending
-  std::vector<programs::NodeId> others;  ///< other_operand: for each node
+  std::vector<programs::NodeId> others;  ///< other_operand, times_other: for each node
   size_t operand = 0;
   programs::Op op = programs::Op::f_add;
   double number = 0;          ///< what it is
