@@ -387,7 +387,7 @@ TEST_CASE("Slips in a light's GLSL are convicted, and their line is named first"
   CHECK(found.named == found.planted);
 }
 
-TEST_CASE("What other engines do on purpose is named by its line", "[slow]") {
+TEST_CASE("What other engines do on purpose is named by its line") {
   const Found found = found_slips(kHabits, 1);
   CHECK(found.convicted == found.planted);
   CHECK(found.named == found.planted);
