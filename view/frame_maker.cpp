@@ -139,8 +139,9 @@ void FrameMaker::draw(ViewState state) {
     picture->frame = render_frame(scene_->prepared(), picture->pipeline, execution_);
     picture->draw_ms = ms_since(start);
     const Clock::time_point drawn = Clock::now();
-    codes_.convert(picture->frame.color, values_of(picture->pipeline), display_of(looks_of_text(state.looks)),
-                   picture->words);
+    DisplayTransform display = display_of(looks_of_text(state.looks), picture->pipeline);
+    display.divides_by_alpha = false;  // a window shows colours over black, as they are
+    codes_.convert(picture->frame.color, values_of(picture->pipeline), display, picture->words);
     picture->convert_ms = ms_since(drawn);
     picture->state = std::move(state);
     const std::lock_guard lock(mutex_);
