@@ -111,7 +111,7 @@ BandedPicture::BandedPicture(const RenderOptions& options, const PreparedScene& 
   if (streamed_) {
     picture_.files = files;
     picture_.metadata = metadata_without_hash(result_);
-    picture_.file_options = file_options(options, picture_.pipeline);
+    picture_.file_options = file_options(options, picture_.pipeline, result_.scene);
     picture_.file_options.threads = execution.threads;
   }
   picture_.rows = rows != 0 ? rows : band_rows(picture_);

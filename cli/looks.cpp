@@ -268,7 +268,12 @@ LightChoice light_choice_of(const std::string& text) {
 void change_lights(std::string& text, LightMeter& meter, Scene& scene) {
   const auto [choice, given] = light_choice_of(text);
   const bool is_ours = has_ours_alone(scene);
-  if (is_ours && choice != "none" && !given) return;
+  if (is_ours && choice != "none" && !given) {
+    if (choice != "keep")
+      scene.notes.push_back("The lights are ours already, so --lights " + choice + " changes nothing (--lights " +
+                            (choice == "three" ? "add" : choice) + ":FACTOR makes them brighter)");
+    return;
+  }
   if (is_ours && (choice == "add" || choice == "soft")) {  // the last of ours is the soft one
     const FpScope fp;
     return choice == "add" ? scale_lights(scene.lights, *given)
@@ -343,14 +348,14 @@ glm::vec4 clear_of_codes(const glm::dvec4& codes, const Pipeline& pipeline, cons
   const FormatInfo target = info(pipeline.target);
   const bool encodes =
       target.number_class == NumberClass::floating || target.srgb || pipeline.post.encode != PostChain::Encode::linear;
-  const DisplayTransform display = display_of(looks, pipeline);
+  const DisplayTransform display = display_of(looks, pipeline, {});
   glm::vec4 clear(0.0f, 0.0f, 0.0f, float(codes.a));
   for (int c = 0; c < 3; ++c) clear[c] = float(light_behind(encodes ? linear_from_srgb(codes[c]) : codes[c], display));
   return clear;
 }
 
 void choose_background(const Pipeline& pipeline, ChosenLooks chosen, Scene& scene, Looks& looks) {
-  const bool shown_otherwise = display_of(looks, pipeline) != DisplayTransform();
+  const bool shown_otherwise = display_of(looks, pipeline, scene) != DisplayTransform();
   const bool is_ours = scene.photometric && (scene.clear.a == 0.0f || (scene.lights_of_ours && shown_otherwise));
   if (!looks.background && (chosen == ChosenLooks::never || !is_ours)) return;
   if (looks.background) remove_ground(scene);
@@ -470,11 +475,10 @@ Looks bring_to_looks(const PipelineOptions& options, const Pipeline& pipeline, C
   return looks;
 }
 
-DisplayTransform display_of(const Looks& looks, const Pipeline& pipeline) {
+DisplayTransform display_of(const Looks& looks, const Pipeline& pipeline, const Scene& scene) {
   const FpScope fp;
   DisplayTransform display;
-  display.divides_by_alpha = pipeline.post.samples > 1 && pipeline.view == ImageView::lit && looks.background &&
-                             background_of(*looks.background).color.a == 0.0;
+  display.divides_by_alpha = pipeline.post.samples > 1 && pipeline.view == ImageView::lit && scene.clear.a == 0.0f;
   if (looks.exposure)
     if (const auto stops = stops_of(*looks.exposure)) display.scale = exp2_of(*stops);
   if (looks.tone_map) display.curve = curve_of(*looks.tone_map);

@@ -44,9 +44,9 @@ enum class ChosenLooks : uint8_t { by_scene, never };
 Looks bring_to_looks(const PipelineOptions& options, const Pipeline& pipeline, ChosenLooks chosen, Scene& scene,
                      const CachedScene* stored = nullptr);
 
-/// Of looks with nothing left to choose, and the pipeline that they were brought to; what does nothing where they have
-/// no exposure, and no transparent background behind averaged samples.
-DisplayTransform display_of(const Looks& looks, const Pipeline& pipeline);
+/// Of looks with nothing left to choose, and of what they were brought to; what does nothing where they have no
+/// exposure, and where averaged samples have no transparent background.
+DisplayTransform display_of(const Looks& looks, const Pipeline& pipeline, const Scene& scene);
 
 /// As options with a space before each, but for the samples, which are in the pipeline; empty where there are none.
 std::string looks_text(const Looks& looks);

@@ -52,9 +52,7 @@ std::string reflectance_line(uint64_t materials) {
 }
 
 /// Lights of the kinds that have boxes, and whose range ends.
-bool has_box(const Light& light) {
-  return is_placed(light.type) && std::isfinite(light.range);
-}
+bool has_box(const Light& light) { return is_placed(light.type) && std::isfinite(light.range); }
 
 uint64_t boxed_lights(const Scene& scene) {
   return uint64_t(std::count_if(scene.lights.begin(), scene.lights.end(), has_box));
@@ -169,9 +167,11 @@ std::string no_program_line(const Pipeline& pipeline) {
          pipeline.preset;
 }
 
-/// Where the animation of a file that is played has come to its end before the time.
+/// Where nothing moves at another time than 0, or the animation of a file has come to its end before it.
 std::string stands_line(const Scene& scene) {
   const TimelineEnd end = end_of(scene.timeline);
+  if (scene.time != 0.0 && !end.is_endless && end.last == 0.0 && !scene.timeline.stands_at)
+    return "Nothing of the scene moves: Every time has one picture";
   if (scene.animations.empty() || end.is_endless || !(end.last > 0.0) || scene.time <= end.last) return {};
   return "The time is after the end of what moves, " + json_number(end.last) + " s: All stands as at its last step";
 }

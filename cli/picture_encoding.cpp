@@ -7,12 +7,12 @@
 
 namespace trueshade {
 
-ImageFileOptions file_options(const RenderOptions& options, const Pipeline& pipeline) {
+ImageFileOptions file_options(const RenderOptions& options, const Pipeline& pipeline, const Scene& scene) {
   ImageFileOptions file;
   if (pipeline.view != ImageView::lit || pipeline.post.encode == PostChain::Encode::srgb)
     file.values = PictureValues::display_codes;
   if (options.encode) file.encoding = *options.encode;
-  file.display = display_of(options.looks, pipeline);
+  file.display = display_of(options.looks, pipeline, scene);
   file.threads = options.execution.threads;
   return file;
 }
@@ -20,7 +20,7 @@ ImageFileOptions file_options(const RenderOptions& options, const Pipeline& pipe
 std::string encoding_note(const RenderOptions& options, const Pipeline& pipeline, const Scene& scene) {
   const Format format = pipeline.post.active() ? pipeline.post.output : pipeline.target;
   const bool linear = info(format).number_class == NumberClass::floating &&
-                      file_options(options, pipeline).values == PictureValues::of_target;
+                      file_options(options, pipeline, scene).values == PictureValues::of_target;
   const bool png = std::any_of(options.outputs.begin(), options.outputs.end(),
                                [](const std::string& path) { return has_ending(path, ".png"); });
   const bool is_usual = scene.is_model && !options.target && !options.preset && !options.pipeline_file;

@@ -136,6 +136,29 @@ std::string clamp_note(const Pipeline& pipeline, const Image& picture, bool to_p
          ": Brighter light is cut off there (--target rgba16f keeps it" + bring;
 }
 
+/// Says so where a screen shows next to nothing of a picture that is not black.
+std::string dim_note(const Pipeline& pipeline, const Image& picture, bool exposed) {
+  constexpr double kDim = 10.0 / 255.0, kDimLight = 0.003;  // the light that sRGB has as 10 of 255
+  constexpr int kShownPercent = 1;
+  const FormatInfo layout = info(picture.format);
+  if (pipeline.view != ImageView::lit || exposed || layout.number_class == NumberClass::integer) return {};
+  const bool is_light = layout.srgb || layout.number_class == NumberClass::floating;
+  const size_t pixels = size_t(picture.width) * size_t(picture.height);
+  const FpScope fp;
+  size_t shown = 0;
+  std::vector<float> row(3 * size_t(picture.width));
+  for (int y = 0; y < picture.height; ++y) {
+    read_row(picture, y, 3, row.data());
+    for (size_t x = 0; x < row.size(); x += 3)
+      shown += std::max({row[x], row[x + 1], row[x + 2]}) > float(is_light ? kDimLight : kDim) ? 1 : 0;
+    if (100 * shown > kShownPercent * pixels) return {};
+  }
+  if (is_black(picture)) return {};
+  return "The picture is nearly black: A screen shows " + std::to_string(pixels - shown) + " of " +
+         std::to_string(pixels) + " pixels darker than 10 of 255 (" + (is_light ? "" : "--target rgba16f with ") +
+         "--exposure auto brings light into range)";
+}
+
 /// How many pixels are no numbers, which a picture does not show: a PNG has 0 for NaN.
 std::string nan_note(const Pipeline& pipeline, const Image& picture) {
   if (info(picture.format).number_class != NumberClass::floating || pipeline.view != ImageView::lit) return {};
@@ -200,9 +223,10 @@ std::string hidden_note(const Pipeline& pipeline, const Image& picture) {
 std::vector<std::string> picture_notes(const Scene& scene, const Pipeline& pipeline, const Frame& frame, bool to_png,
                                        bool exposed) {
   std::vector<std::string> notes;
-  for (std::string note : {black_note(scene, pipeline, frame), clamp_note(pipeline, frame.color, to_png, exposed),
-                           nan_note(pipeline, frame.color), hidden_note(pipeline, frame.color),
-                           nearly_empty_note(scene, frame.stats), stretched_note(scene, pipeline)})
+  for (std::string note :
+       {black_note(scene, pipeline, frame), clamp_note(pipeline, frame.color, to_png, exposed),
+        nan_note(pipeline, frame.color), hidden_note(pipeline, frame.color), nearly_empty_note(scene, frame.stats),
+        stretched_note(scene, pipeline), dim_note(pipeline, frame.color, exposed)})
     if (!note.empty()) notes.push_back(std::move(note));
   return notes;
 }

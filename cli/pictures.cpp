@@ -82,7 +82,7 @@ void make_files(const RenderOptions& options, const std::vector<std::string>& pa
       const std::string page = report_page(result);
       file.emplace_back(page.begin(), page.end());
     } else {
-      file = encoded_image(path, result.frame.color, asked_for, metadata, file_options(options, result.pipeline));
+      file = encoded_image(path, result.frame.color, asked_for, metadata, file_options(options, result.pipeline, result.scene));
     }
     sink.file(path, std::move(file), about_file(path, result, asked_for), is_report(path));
   }
@@ -129,7 +129,9 @@ void hand_out_streamed(const RenderOptions& options, const std::vector<std::stri
 /// Makes the files of a frame that is drawn, and the texts that were asked for.
 void hand_out(const RenderOptions& options, const std::vector<std::string>& paths, RenderedFrame& result,
               PictureSink& sink) {
-  const bool as_it_is = display_of(options.looks, result.pipeline) == DisplayTransform();
+  DisplayTransform display = display_of(options.looks, result.pipeline, result.scene);
+  display.divides_by_alpha = false;  // which cuts nothing off
+  const bool as_it_is = display == DisplayTransform();
   const bool to_png =
       as_it_is && std::any_of(paths.begin(), paths.end(), [](const auto& path) { return has_ending(path, ".png"); });
   if (result.cube_map.empty())  // a face may well show nothing

@@ -25,7 +25,7 @@ void check_video_is_taken() {
 
 std::vector<uint8_t> raw_video(const RenderOptions& options, const RenderedFrame& result) {
   const Image& color = result.frame.color;
-  const PngCodes codes(color, file_options(options, result.pipeline));
+  const PngCodes codes(color, file_options(options, result.pipeline, result.scene));
   std::vector<uint8_t> bytes(codes.row_bytes() * size_t(color.height));
   for (int y = 0; y < color.height; ++y) codes.row(y, bytes.data() + size_t(y) * codes.row_bytes());
   return bytes;
@@ -33,7 +33,7 @@ std::vector<uint8_t> raw_video(const RenderOptions& options, const RenderedFrame
 
 std::string raw_video_note(const RenderOptions& options, const RenderedFrame& picture) {
   const Image& color = picture.frame.color;
-  const PngCodes codes(color, file_options(options, picture.pipeline));
+  const PngCodes codes(color, file_options(options, picture.pipeline, picture.scene));
   return std::string("raw video: ffmpeg -f rawvideo -pixel_format ") +
          kPixelFormats[size_t(codes.bits() / 8 - 1)][size_t(codes.channels() - 1)] + " -video_size " +
          std::to_string(color.width) + 'x' + std::to_string(color.height) + " -framerate " +

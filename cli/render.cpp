@@ -68,6 +68,24 @@ RenderOptions for_eyes(RenderOptions options, const Scene& scene) {
   return options;
 }
 
+/// Where --exposure does not do what it may have been given for; else empty.
+std::string vain_note(const RenderOptions& options, const Pipeline& pipeline) {
+  const auto ends_in = [&options](const char* ending) {
+    return std::any_of(options.outputs.begin(), options.outputs.end(),
+                       [ending](const std::string& path) { return has_ending(path, ending); });
+  };
+  const bool is_exposed = options.looks.exposure && options.looks.exposure != "0",
+             is_shown = ends_in(".png") || ends_in(".html") || options.raw_video;
+  const FormatInfo image = info(pipeline.post.active() ? pipeline.post.output : pipeline.target);
+  if (is_exposed && !is_shown && !options.outputs.empty())
+    return "--exposure is of PNGs, pages and raw video: An EXR holds the light as it is";
+  if (is_exposed && image.number_class == NumberClass::unorm && !image.srgb &&
+      pipeline.post.encode == PostChain::Encode::linear)
+    return "--exposure multiplies the codes of " + std::string(image.name) +
+           ", which are shown as they are (--target rgba16f holds light, which it exposes as a camera does)";
+  return {};
+}
+
 }  // namespace
 
 SceneToRender::SceneToRender(const RenderOptions& given, const Execution& execution)
@@ -84,6 +102,7 @@ SceneToRender::SceneToRender(const RenderOptions& given, const Execution& execut
                                 "4 averages them as well)"
                               : "There is one sample a pixel, because the picture is large (--samples 4 smooths its "
                                 "edges)");
+  if (std::string note = vain_note(given, pipeline); !note.empty()) scene.notes.push_back(std::move(note));
   check_cube_map(options, pipeline);
   validate_region(pipeline, options.execution.region);
   if (options.resume && (!is_streamed(options, pipeline) || options.outputs.empty() || options.numbered()))

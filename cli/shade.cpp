@@ -80,7 +80,7 @@ void shade(const ShadeOptions& options) {
   for (const std::string& path : options.outputs) {
     const Activity activity("writing " + printable(path, Lines::one));
     write_picture(path, result.frame.color, {}, metadata_of(result, options, planes.capture),
-                  file_options(options, pipeline));
+                  file_options(options, pipeline, scene));
     say_written(path,
                 std::to_string(pipeline.width) + 'x' + std::to_string(pipeline.height) + ' ' +
                     std::string(info(pipeline.target).name) + ", " + kind_of_file(path),

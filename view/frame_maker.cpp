@@ -139,7 +139,7 @@ void FrameMaker::draw(ViewState state) {
     picture->frame = render_frame(scene_->prepared(), picture->pipeline, execution_);
     picture->draw_ms = ms_since(start);
     const Clock::time_point drawn = Clock::now();
-    DisplayTransform display = display_of(looks_of_text(state.looks), picture->pipeline);
+    DisplayTransform display = display_of(looks_of_text(state.looks), picture->pipeline, scene_->scene());
     display.divides_by_alpha = false;  // a window shows colours over black, as they are
     codes_.convert(picture->frame.color, values_of(picture->pipeline), display, picture->words);
     picture->convert_ms = ms_since(drawn);

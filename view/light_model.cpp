@@ -39,7 +39,8 @@ bool takes(const ModelParameter& parameter, float value) {
 
 float first_value(const ModelParameter& parameter) {
   if (!parameter.range) return 1.0f;
-  const auto [least, most] = *parameter.range;
+  const auto [least, most, usual] = *parameter.range;
+  if (usual) return *usual;
   const double value = std::isinf(most) ? std::max(least, 1.0) : least + (most - least) / 2.0;
   return float(parameter.is_float ? value : std::ceil(value));
 }

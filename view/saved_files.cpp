@@ -26,7 +26,7 @@ std::string write_picture(const std::string& path, const std::string& name, cons
   rendered.scene_hash = scene_hash(scene.scene());
   rendered.looks = picture.state.looks;
   ImageFileOptions options;
-  options.display = display_of(looks_of_text(rendered.looks), picture.pipeline);
+  options.display = display_of(looks_of_text(rendered.looks), picture.pipeline, scene.scene());
   if (picture.pipeline.view != ImageView::lit || picture.pipeline.post.encode == PostChain::Encode::srgb)
     options.values = PictureValues::display_codes;
   const std::string file = path.empty() ? named(name, rendered.image_hash, ".png") : path;

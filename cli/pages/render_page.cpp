@@ -38,7 +38,7 @@ std::string about_codes(const Image& color) {
 }
 
 bool is_shown_otherwise(const RenderedFrame& result) {
-  return display_of(looks_of_text(result.looks), result.pipeline) != DisplayTransform();
+  return display_of(looks_of_text(result.looks), result.pipeline, result.scene) != DisplayTransform();
 }
 
 std::string about_shown(const RenderedFrame& result) {
@@ -49,7 +49,7 @@ std::string about_shown(const RenderedFrame& result) {
 /// The picture as PNGs of it have it; the same where that is as it is.
 Image shown_picture(const RenderedFrame& result) {
   ImageFileOptions options;
-  options.display = display_of(looks_of_text(result.looks), result.pipeline);
+  options.display = display_of(looks_of_text(result.looks), result.pipeline, result.scene);
   const Image& color = result.frame.color;
   const bool are_codes =
       result.pipeline.view != ImageView::lit || result.pipeline.post.encode == PostChain::Encode::srgb;

@@ -6,7 +6,7 @@
 // is the share of fibres that stand up. An ambient light adds color * albedo.
 // Reads position, normal, albedo, roughness; lights of all four types; the eye.
 layout(std140) uniform Parameters {
-  float sheen;  // 0 to 1
+  float sheen;  // 0 to 1, usually 0.5
 };
 const float pi = 3.14159265;
 

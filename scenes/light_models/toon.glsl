@@ -5,7 +5,7 @@
 // parameter steps is a whole number. An ambient light adds color * albedo.
 // Reads position, normal, albedo; lights of all four types.
 layout(std140) uniform Parameters {
-  float steps;  // from 1
+  float steps;  // from 1, usually 4
 };
 
 vec3 light(Surface s, Light l, View v) {

@@ -3,7 +3,7 @@
 // The parameter wrap: 0 is Lambert, 1 lights up to the far side. An ambient light adds color * albedo.
 // Reads position, normal, albedo; lights of all four types.
 layout(std140) uniform Parameters {
-  float wrap;  // 0 to 1
+  float wrap;  // 0 to 1, usually 0.5
 };
 const float pi = 3.14159265;
 

@@ -12,9 +12,9 @@
 namespace trueshade {
 
 LightFit fit_of(const Pipeline& pipeline) {
-  const bool spreads = pipeline.light_model.falloff == Falloff::inverse_square;
   const LightProgram& program = pipeline.light_program;
-  return {spreads, spreads && program.used() && names_shipped_model(program.file)};
+  if (program.used() && names_shipped_model(program.file)) return {true, true};
+  return {pipeline.light_model.falloff == Falloff::inverse_square, false};
 }
 
 void fit_lights_of_ours(Scene& scene, const Pipeline& pipeline) {

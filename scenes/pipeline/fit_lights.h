@@ -7,15 +7,16 @@ namespace trueshade {
 /// What of a pipeline the brightness of lights of ours depends on.
 struct LightFit {
   bool spreads = false;      ///< light spreads by the inverse square
-  bool divides_pi = false;   ///< and diffuse light is divided by pi
+  bool divides_pi = false;   ///< diffuse light is divided by pi
   bool operator==(const LightFit&) const = default;
 };
 LightFit fit_of(const Pipeline& pipeline);
 
 /// Makes lights of ours (scenes/lights_of_ours.h) as bright under a pipeline as under those that their scene was made
 /// for. Where light spreads by the inverse square, a lamp has more the farther away it is, so that a model in
-/// millimetres and one in kilometres look the same; where a model that ships draws so, a lamp has pi times as much, because these
-/// divide diffuse light by pi and presets do not. Whether a user's program divides is not known. Other lights stay.
+/// millimetres and one in kilometres look the same. Models that ship spread light so, and divide diffuse light by pi,
+/// which presets do not: a lamp has pi times as much there. What a user's program does is not known, and it gets what the
+/// pipeline's model does. Other lights stay.
 void fit_lights_of_ours(Scene& scene, const Pipeline& pipeline);
 
 }  // namespace trueshade

@@ -40,11 +40,17 @@ std::optional<ParameterRange> range_in(std::string_view comment) {
   const bool open = take(comment, "from ");
   const std::optional<double> least = taken_number(comment);
   if (!least) return std::nullopt;
-  if (open) return ParameterRange{*least, kEndless};
-  if (!take(comment, "to ")) return std::nullopt;
-  const std::optional<double> most = taken_number(comment);
-  if (!most || *most < *least) return std::nullopt;
-  return ParameterRange{*least, *most};
+  ParameterRange range{*least, kEndless};
+  if (!open) {
+    if (!take(comment, "to ")) return std::nullopt;
+    const std::optional<double> most = taken_number(comment);
+    if (!most || *most < *least) return std::nullopt;
+    range.most = *most;
+  }
+  if (take(comment, ", usually "))
+    if (const std::optional<double> usual = taken_number(comment); usual && range.holds(float(*usual)))
+      range.usual = float(*usual);
+  return range;
 }
 
 /// Whether a place of a text is in a comment.
@@ -85,7 +91,9 @@ std::string_view name_in(std::string_view declaration) {
 
 std::string ParameterRange::text() const {
   const bool open = std::isinf(most);
-  return open ? "from " + json::number_text(least) : json::number_text(least) + " to " + json::number_text(most);
+  const std::string ends =
+      open ? "from " + json::number_text(least) : json::number_text(least) + " to " + json::number_text(most);
+  return usual ? ends + ", usually " + json::number_text(double(*usual)) : ends;
 }
 
 std::vector<DeclaredParameter> declared_parameters(std::string_view text) {

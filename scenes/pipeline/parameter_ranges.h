@@ -8,9 +8,10 @@ namespace trueshade {
 
 /// Which values a parameter of a light program is made for, ends included.
 struct ParameterRange {
-  double least, most;  ///< most may be infinite
+  double least, most;                  ///< most may be infinite
+  std::optional<float> usual{};        ///< what it is where nothing gives it
   bool holds(float value) const { return value >= float(least) && value <= float(most); }
-  std::string text() const;  ///< "0 to 1", "from 1"
+  std::string text() const;  ///< "0 to 1", "from 1, usually 4"
 };
 
 /// A member of a program's block Parameters.
@@ -20,7 +21,7 @@ struct DeclaredParameter {
 };
 
 /// Those that a program's text declares, in its order. A comment behind members that begins "// 0 to 1" or "// from 1"
-/// states their range; other comments state none.
+/// states their range, and with ", usually 4" behind that what they are where nothing gives them; others state neither.
 std::vector<DeclaredParameter> declared_parameters(std::string_view text);
 
 /// The range of one; null where the text states none.

@@ -181,7 +181,10 @@ std::optional<float> parameter_value(std::string_view input, const LightProgram&
     const size_t c = rest->empty() ? 0 : std::string_view("xyzw").find((*rest)[1]);
     if (c < given.value.size()) return given.value[c];
   }
-  return std::nullopt;
+  if (!input.starts_with(kParameterBlock)) return std::nullopt;
+  const std::vector<DeclaredParameter> declared = declared_parameters(program.text);
+  const ParameterRange* const range = range_of(declared, input.substr(std::string_view(kParameterBlock).size()));
+  return range != nullptr ? range->usual : std::nullopt;
 }
 
 ParameterType parameter_type(const std::string& declaration) {

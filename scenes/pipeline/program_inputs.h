@@ -63,7 +63,7 @@ void check_lights(std::span<const Light> lights, const std::string& by, std::spa
 /// The same of what the pipeline draws them by, unless that is a light program.
 void check_lights(std::span<const Light> lights, const Pipeline& pipeline);
 
-/// The value of an input of the block `Parameters`; nothing where none is given.
+/// The value of an input of the block `Parameters`: as given, or as the text says that it usually is; nothing else.
 std::optional<float> parameter_value(std::string_view input, const LightProgram& program);
 
 /// The type of a member of the block of parameters, read from its declaration: "ivec2 size", "float weight[3]".

@@ -16,7 +16,7 @@ TEST_CASE("A comment behind a parameter states its range where it begins with on
 layout(std140) uniform Parameters {
   float gain;          // 0 to 20: how bright
   vec3 tint, shade;    // 0.25 to 1
-  float steps;         // from 1
+  float steps;         // from 1, usually 4
   float free;          // 3 lamps, from the left
   vec2 size[2];        // 1e-3 to -1
   float cold; };       // -2 to -1.5
@@ -30,7 +30,7 @@ float outside;         // 0 to 1
   CHECK(shown("gain") == "0 to 20");
   CHECK(shown("tint") == "0.25 to 1");
   CHECK(shown("shade") == "0.25 to 1");
-  CHECK(shown("steps") == "from 1");
+  CHECK(shown("steps") == "from 1, usually 4");
   CHECK(shown("free") == "none");
   CHECK(shown("size") == "none");
   CHECK(shown("cold") == "-2 to -1.5");
@@ -39,6 +39,9 @@ float outside;         // 0 to 1
   const ParameterRange steps = *range_of(declared, "steps");
   CHECK(steps.holds(1.0f));
   CHECK_FALSE(steps.holds(0.999f));
+  CHECK(steps.usual == 4.0f);
+  CHECK_FALSE(range_of(declared, "gain")->usual);
+  CHECK_FALSE(range_of(declared_parameters("uniform Parameters { float a; };  // 0 to 1, usually 2\n"), "a")->usual);
   CHECK_FALSE(steps.holds(std::numeric_limits<float>::quiet_NaN()));
   const auto one_line = declared_parameters("uniform Parameters { float a, b; };  // 0 to 1\n");
   REQUIRE(one_line.size() == 2);

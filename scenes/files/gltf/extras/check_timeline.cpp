@@ -90,6 +90,8 @@ class TimelineCheck {
     for (const NodeLight& hung : t_.node_lights) {
       below(hung.light, scene_.lights.size(), "light");
       below(hung.node, t_.nodes.size(), "node");
+      require(!has_area(scene_.lights[hung.light].type), "a light with an area hangs on a node",
+              "none that would have to be turned with it");
     }
     if (t_.node_camera) below(t_.node_camera->node, t_.nodes.size(), "node");
   }
