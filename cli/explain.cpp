@@ -198,7 +198,11 @@ Account against_account(const Question& q, const PixelHistory& history) {
     return out;
   }
   const std::vector<Candidate> candidates = candidates_for(q.frame, history, q.reference.color, value);
-  if (candidates.empty()) out.add("causes", "no single change that is tried makes this value, or nearly so", "");
+  if (candidates.empty())
+    out.add("causes",
+            std::string("no single change that is tried makes this value, or nearly so") +
+                (q.frame.pipeline.light_program.used() ? "; validate tries changes of the light program's lines" : ""),
+            "");
   for (const Candidate& candidate : candidates) {
     Account& part = out.part("candidate", candidate.what + ": " + distance_words(format, candidate.difference));
     part.quantities.push_back(

@@ -61,14 +61,14 @@ std::vector<Finding> best_of(std::vector<Finding> lines, std::vector<Finding> ot
   for (size_t i = 0; i < all.size(); ++i) {
     const bool goes_on = i != 0 && i != count && (all[i].together || all[i].tied);
     if (!goes_on) groups.emplace_back();
-    const double cost = 1 - all[i].explained - all[i].located + all[i].contradicted + (all[i].fitted && i < count ? 0.03 : 0);
+    const double cost =
+        1 - all[i].explained - all[i].located + all[i].contradicted + (all[i].fitted && i < count ? 0.03 : 0);
     groups.back().first = goes_on && !all[i].together ? groups.back().first : cost;
     groups.back().second.push_back(std::move(all[i]));
   }
   const auto half_percents = [](double cost) { return std::lround(200 * cost); };
-  std::stable_sort(groups.begin(), groups.end(), [&](const auto& a, const auto& b) {
-    return half_percents(a.first) < half_percents(b.first);
-  });
+  std::stable_sort(groups.begin(), groups.end(),
+                   [&](const auto& a, const auto& b) { return half_percents(a.first) < half_percents(b.first); });
   std::vector<Finding> out;
   for (auto& [cost, group] : groups)
     for (Finding& f : group)
@@ -98,6 +98,23 @@ std::unique_ptr<PictureCase> picture_of(const Shown& s, const PlaneFindings& pla
   healed->heal(planes.expected, planes.wrong);
   try_other(std::move(healed));
   return picture;
+}
+
+/// Whether a picture's small floats seem to be rounded as the pipeline does not say, which is no fault where the
+/// profile allows either.
+bool rounds_otherwise(const std::vector<Finding>& findings) {
+  return std::any_of(findings.begin(), findings.end(),
+                     [](const Finding& f) { return f.name == "store-nearest" || f.name == "store-truncated"; });
+}
+
+Pipeline rounding_otherwise(Pipeline pipeline) {
+  HalfRound& rule = pipeline.gbuffer.half_round;
+  rule = rule == HalfRound::nearest ? HalfRound::toward_zero : HalfRound::nearest;
+  return pipeline;
+}
+
+double first_score(const std::vector<Finding>& findings) {
+  return findings.empty() ? 0 : findings[0].explained - findings[0].contradicted;
 }
 
 /// Before what is said of the others, if most that is wrong is under glass.
@@ -155,16 +172,27 @@ std::vector<Finding> diagnose(const Scene& scene, const Pipeline& asked, const P
   if (pipeline.light_program.used() && lit != nullptr && supposed.empty())
     lines = program_findings(scene, pipeline, profile, capture, *lit, most);
   const bool told = !lines.empty() && !lines[0].fitted && lines[0].explained > 0.995 && lines[0].contradicted < 0.005;
-  if (!told && lit != nullptr && asks_lit && (!supposed.empty() || is_suspicious(*lit))) {
-    const Shown shown{scene, pipeline, profile, capture, *lit};
+  const auto findings_under = [&](const Pipeline& stored_so) {
+    const Shown shown{scene, stored_so, profile, capture, *lit};
     const std::unique_ptr<PictureCase> picture = picture_of(shown, planes);
-    if (supposed.empty() || !only.picture.empty()) findings = picture_findings(*picture, only.picture);
+    std::vector<Finding> found;
+    if (supposed.empty() || !only.picture.empty()) found = picture_findings(*picture, only.picture);
     const bool glazed =
-        draws_transparent(scene, pipeline) && pipeline.transparency.mode == TransparencyMode::after_lights;
+        draws_transparent(scene, stored_so) && stored_so.transparency.mode == TransparencyMode::after_lights;
     const StageVerdict* over = stage_of({"transparency"});
     if (glazed && (supposed.empty() || !only.glass.empty()))
-      add_glass(glass_findings(scene, pipeline, profile, capture, over != nullptr ? *over : *lit, *picture, only.glass),
-                findings);
+      add_glass(
+          glass_findings(scene, stored_so, profile, capture, over != nullptr ? *over : *lit, *picture, only.glass),
+          found);
+    return found;
+  };
+  if (!told && lit != nullptr && asks_lit && (!supposed.empty() || is_suspicious(*lit))) {
+    findings = findings_under(pipeline);
+    const bool allows_either = profile.half == HalfStore::either && !profile.exact_planes;
+    if (allows_either && info(pipeline.target).small_float() && (!supposed.empty() || rounds_otherwise(findings))) {
+      std::vector<Finding> others = findings_under(rounding_otherwise(pipeline));
+      if (supposed.empty() || first_score(others) > first_score(findings)) findings = std::move(others);
+    }
   }
   if (!lines.empty()) findings = best_of(std::move(lines), std::move(findings), most);
   findings = merged(std::move(planes.findings), std::move(findings), most);

@@ -50,6 +50,7 @@ class EditList {
     for (const auto& step : steps_) nodes_ = step, of_constants();
     for (const auto& step : steps_) nodes_ = step, of_value();
     of_albedo();
+    for (const auto& step : steps_) nodes_ = step, of_terms();
     for (const auto& step : steps_) nodes_ = step, of_further_factors();
     for (const auto& step : steps_) nodes_ = step, of_factor();
     for (const auto& step : steps_) nodes_ = step, of_operands();
@@ -82,6 +83,10 @@ class EditList {
     const auto& [a, b, c] = first().operand;
     switch (first().op) {
       case Op::f_add:
+        if (mixes()) {
+          add(ProgramChange::mixed_alone, "takes the first of two values where it should mix them").operand = 0;
+          add(ProgramChange::mixed_alone, "takes the second of two values where it should mix them").operand = 1;
+        }
         other(Op::f_sub, "subtracts where it should add");
         alone(0, "leaves out the second term of a sum");
         return alone(1, "leaves out the first term of a sum");
@@ -168,13 +173,18 @@ class EditList {
     }
   }
 
-  /// Albedo that is encoded once too often or once too few, by sRGB or by the power of 2.2 that stands for it.
-  void of_albedo() {
-    nodes_.clear();
+  std::vector<NodeId> albedo_inputs() const {
+    std::vector<NodeId> found;
     for (NodeId id = 0; id < p_.nodes.size(); ++id)
       if (at(id).op == Op::input && p_.inputs[at(id).bits].name.starts_with("surface.albedo.") &&
           !p_.inputs[at(id).bits].name.ends_with(".w"))
-        nodes_.push_back(id);
+        found.push_back(id);
+    return found;
+  }
+
+  /// Albedo that is encoded once too often or once too few, by sRGB or by the power of 2.2 that stands for it.
+  void of_albedo() {
+    nodes_ = albedo_inputs();
     if (nodes_.empty()) return;
     uint32_t line = 0;  // that reads it
     for (NodeId id = NodeId(p_.nodes.size()); id-- > 0;)
@@ -191,7 +201,7 @@ class EditList {
     changed(ProgramChange::srgb_decoded, 2.2, "has albedo to the power of 2.2 once too often");
   }
 
-  /// A cosine, say, as one factor more.
+  /// A cosine, say, as one factor more or less, or albedo as one more of a highlight.
   void of_further_factors() {
     if (first().type != Type::f32 || (first().op != Op::f_mul && first().op != Op::f_div && first().op != Op::pow))
       return;
@@ -199,10 +209,51 @@ class EditList {
       const Op op = at(step[0]).op;
       if (step.size() != 1 || (op != Op::f_max && op != Op::f_min && op != Op::f_mul)) continue;
       if (step[0] >= nodes_[0] || at(step[0]).type != Type::f32 || !keeps_rate(nodes_[0], step[0])) continue;
-      ProgramEdit& edit = add(ProgramChange::times_other, "has the value of line " + std::to_string(at(step[0]).line) +
-                                                              " as a factor that it should not have");
-      edit.others.assign(nodes_.size(), step[0]);
+      const std::string value = "the value of line " + std::to_string(at(step[0]).line);
+      add(ProgramChange::times_other, "has " + value + " as a factor that it should not have")
+          .others.assign(nodes_.size(), step[0]);
+      if (op != Op::f_mul)
+        add(ProgramChange::over_other, "lacks " + value + " as a factor").others.assign(nodes_.size(), step[0]);
     }
+    if (const std::vector<NodeId> albedo = albedo_inputs(); nodes_.size() == 3 && albedo.size() == 3)
+      add(ProgramChange::times_other, "has albedo as a factor that it should not have").others = albedo;
+  }
+
+  /// A sum with factors, of which one is of one term alone, as where a highlight is not multiplied by N.L.
+  void of_terms() {
+    if (first().op != Op::f_mul) return;
+    for (size_t k = 0; k < 2; ++k) {
+      const ProgramNode& factor = at(first().operand[k]);
+      if (factor.op != Op::f_max && factor.op != Op::f_min) continue;
+      std::vector<NodeId> sums;
+      for (const NodeId node : nodes_)
+        if (const NodeId sum = sum_in(at(node).operand[1 - k]);
+            sum != kNoNode && at(node).operand[k] == first().operand[k])
+          sums.push_back(sum);
+      if (sums.size() != nodes_.size()) continue;
+      for (const bool gates : {false, true})
+        for (size_t term = 0; term < 2; ++term) {
+          ProgramEdit& edit = add(ProgramChange::factor_of_one_term,
+                                  "multiplies the " + std::string(term == 0 ? "second" : "first") +
+                                      " term of a sum alone by the value of line " + std::to_string(factor.line) +
+                                      (gates ? ", and has the other where that is above 0" : ""));
+          edit.operand = k, edit.others = sums, edit.number = double(term), edit.gates = gates;
+        }
+    }
+  }
+  /// The sum that a product has as a factor.
+  NodeId sum_in(NodeId id) const {
+    if (at(id).op == Op::f_add) return id;
+    if (at(id).op != Op::f_mul) return kNoNode;
+    const NodeId left = sum_in(at(id).operand[0]);
+    return left != kNoNode ? left : sum_in(at(id).operand[1]);
+  }
+
+  /// x (1 - a) + y a
+  bool mixes() const {
+    const auto [x, y, none] = first().operand;
+    return at(x).op == Op::f_mul && at(y).op == Op::f_mul && at(at(x).operand[1]).op == Op::f_sub &&
+           is_number(at(at(x).operand[1]).operand[0], 1) && at(at(x).operand[1]).operand[1] == at(y).operand[1];
   }
 
   void of_factor() {
@@ -259,105 +310,5 @@ class EditList {
 }  // namespace
 
 std::vector<ProgramEdit> program_edits(const Program& program) { return EditList(program).all(); }
-
-Program edited(const Program& program, const ProgramEdit& edit) {
-  Program out = program;
-  out.nodes.clear();
-  std::vector<NodeId> now(program.nodes.size());
-  const auto push = [&](const ProgramNode& node) {
-    out.nodes.push_back(node);
-    return NodeId(out.nodes.size() - 1);
-  };
-  const auto constant = [&](double x) {
-    ProgramNode node;
-    node.bits = std::bit_cast<uint32_t>(float(x));
-    return push(node);
-  };
-  const auto made = [&](Op op, Type type, NodeId a, NodeId b, NodeId c) {
-    ProgramNode node;
-    node.op = op, node.type = type, node.operand = {a, b, c};
-    return push(node);
-  };
-  const auto made_of_two = [&](Op op, NodeId a, NodeId b) { return made(op, Type::f32, a, b, kNoNode); };
-  // IEC 61966-2-1, or a power in its place.
-  const auto encoded = [&](NodeId x, double power) {
-    if (power != 0) return made_of_two(Op::pow, x, constant(power));
-    const NodeId low = made_of_two(Op::f_mul, x, constant(12.92)), root = made_of_two(Op::pow, x, constant(1 / 2.4)),
-                 high = made_of_two(Op::f_sub, made_of_two(Op::f_mul, root, constant(1.055)), constant(0.055));
-    const NodeId is_low = made(Op::f_lt, Type::boolean, x, constant(0.0031308), kNoNode);
-    return made(Op::select, Type::f32, is_low, low, high);
-  };
-  const auto decoded = [&](NodeId x, double power) {
-    if (power != 0) return made_of_two(Op::pow, x, constant(power));
-    const NodeId low = made_of_two(Op::f_mul, x, constant(1 / 12.92)),
-                 base = made_of_two(Op::f_mul, made_of_two(Op::f_add, x, constant(0.055)), constant(1 / 1.055)),
-                 high = made_of_two(Op::pow, base, constant(2.4));
-    const NodeId is_low = made(Op::f_lt, Type::boolean, x, constant(0.04045), kNoNode);
-    return made(Op::select, Type::f32, is_low, low, high);
-  };
-  const auto powered = [&](NodeId value, Op op) {
-    ProgramNode node;
-    node.op = op, node.operand = {value, op == Op::f_mul ? value : kNoNode, kNoNode};
-    return push(node);
-  };
-  for (NodeId id = 0; id < program.nodes.size(); ++id) {
-    ProgramNode node = program.nodes[id];
-    for (size_t k = 0; k < node.operands().size(); ++k) node.operand[k] = now[node.operand[k]];
-    const auto place = std::lower_bound(edit.nodes.begin(), edit.nodes.end(), id);
-    if (place == edit.nodes.end() || *place != id) {
-      now[id] = push(node);
-      continue;
-    }
-    switch (edit.change) {
-      case ProgramChange::other_operation:
-        node.op = edit.op;
-        break;
-      case ProgramChange::operand_alone:
-        now[id] = node.operand[edit.operand];
-        continue;
-      case ProgramChange::swapped:
-        std::swap(node.operand[0], node.operand[1]);
-        break;
-      case ProgramChange::number:
-        now[id] = constant(edit.number);
-        continue;
-      case ProgramChange::constant_operand:
-        node.operand[edit.operand] = constant(edit.number);
-        break;
-      case ProgramChange::other_operand:
-        node.operand[edit.operand] = now[edit.others[size_t(place - edit.nodes.begin())]];
-        break;
-      case ProgramChange::scaled: {
-        ProgramNode product;
-        product.op = Op::f_mul, product.operand = {push(node), constant(edit.number), kNoNode};
-        now[id] = push(product);
-        continue;
-      }
-      case ProgramChange::times_other:
-        now[id] = made_of_two(Op::f_mul, push(node), now[edit.others[size_t(place - edit.nodes.begin())]]);
-        continue;
-      case ProgramChange::srgb_encoded:
-        now[id] = encoded(push(node), edit.number);
-        continue;
-      case ProgramChange::srgb_decoded:
-        now[id] = decoded(push(node), edit.number);
-        continue;
-      case ProgramChange::square_of_operand:
-        node.operand[edit.operand] = powered(node.operand[edit.operand], Op::f_mul);
-        break;
-      case ProgramChange::root_of_operand:
-        node.operand[edit.operand] = powered(node.operand[edit.operand], Op::f_sqrt);
-        break;
-      case ProgramChange::square:
-      case ProgramChange::root:
-        now[id] = powered(push(node), edit.change == ProgramChange::square ? Op::f_mul : Op::f_sqrt);
-        continue;
-    }
-    now[id] = push(node);
-  }
-  for (NodeId& id : out.output) id = now[id];
-  set_rates(out);
-  return out;
-}
 
 }  // namespace trueshade::oracle

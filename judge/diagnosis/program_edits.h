@@ -8,16 +8,19 @@
 namespace trueshade::oracle {
 
 enum class ProgramChange : uint8_t {
-  other_operation,   ///< `op` instead
-  operand_alone,     ///< the operand itself: what is done to it is left out
-  swapped,           ///< the first two operands change places
-  number,            ///< the value is a number
-  constant_operand,  ///< an operand that is a constant is another number
-  other_operand,     ///< an operand is the value of another step
-  times_other,       ///< the value times that of another step
-  scaled,            ///< the value times a number
-  square,            ///< the square of the value
-  root,              ///< its root
+  other_operation,     ///< `op` instead
+  operand_alone,       ///< the operand itself: what is done to it is left out
+  swapped,             ///< the first two operands change places
+  number,              ///< the value is a number
+  constant_operand,    ///< an operand that is a constant is another number
+  other_operand,       ///< an operand is the value of another step
+  times_other,         ///< the value times that of another step
+  over_other,          ///< the value over that of another step
+  factor_of_one_term,  ///< of a product of the sum `others` and an operand, that operand is of one term alone
+  mixed_alone,         ///< of x (1 - a) + y a, x or y
+  scaled,              ///< the value times a number
+  square,              ///< the square of the value
+  root,                ///< its root
   square_of_operand,
   root_of_operand,
   srgb_encoded,  ///< the value as sRGB has it; with a `number` its power
@@ -28,11 +31,12 @@ enum class ProgramChange : uint8_t {
 struct ProgramEdit {
   ProgramChange change = ProgramChange::other_operation;
   std::vector<programs::NodeId> nodes;   ///< ascending
-  std::vector<programs::NodeId> others;  ///< other_operand, times_other: for each node
+  std::vector<programs::NodeId> others;  ///< other_operand, times_other, over_other: for each node
   size_t operand = 0;
   programs::Op op = programs::Op::f_add;
   double number = 0;          ///< what it is
   bool fitted = false;        ///< the number is to be found: it is what it is rightly
+  bool gates = false;         ///< factor_of_one_term: the other term is 0 where the factor is
   bool is_parameter = false;  ///< of the block Parameters: `text` is its name
   uint32_t line = 0;
   std::string text;  ///< what the line does then, "subtracts where it should add"

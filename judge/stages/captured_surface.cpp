@@ -21,9 +21,13 @@ bool emits(const Scene& scene, const LightModel& model) {
          });
 }
 
-/// Whether metallic and roughness are planes of their own, which light programs read.
+/// Whether metallic and roughness are planes of their own, which light programs read. Error(bad_input): one of them is.
 bool has_metals(const Capture& capture) {
-  return capture.plane("metallic") != nullptr && capture.plane("roughness") != nullptr;
+  const bool metallic = capture.plane("metallic") != nullptr, roughness = capture.plane("roughness") != nullptr;
+  if (metallic != roughness)
+    throw Error(ErrorKind::bad_input, capture.name + ": plane " + (metallic ? "roughness" : "metallic"), "is missing",
+                "give both, or both as the plane specular");
+  return metallic;
 }
 
 }  // namespace

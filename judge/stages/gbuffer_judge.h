@@ -108,6 +108,9 @@ class GBufferJudge {
   template <typename Found>
   void judge_shininess(const Range& range, double stored, uint32_t pixel, bool looked_up, Found& m) const;
 
+  template <typename Found>
+  void judge_own_plane(const PlaneView& view, const char* name, const Range& range, int x, int y_top, Found& m) const;
+
   /// Possible surfaces that may be seen, the nominal one first.
   void find_legal(std::span<const PossibleSurface> all, std::vector<const PossibleSurface*>& legal,
                   const PossibleSurface*& nominal, bool& certain) const;
@@ -127,7 +130,7 @@ class GBufferJudge {
   const Asked asked_;
   const PixelMask& mask_;
   const PossibleSurfaces* const wider_;
-  PlaneView depth_, object_, material_, specular_, emission_;
+  PlaneView depth_, object_, material_, specular_, emission_, metallic_, roughness_;
   std::vector<AttributePlane> planes_;
   PossibleSurfaces possible_;
   std::optional<TransparentLayers> layers_;  ///< blended into the albedo

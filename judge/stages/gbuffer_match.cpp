@@ -65,6 +65,8 @@ GBufferJudge::GBufferJudge(const Scene& scene, const Pipeline& pipeline, const P
       material_(plane_of(capture, pipeline, "id.material")),
       specular_(reads_specular_plane(pipeline.light_model) ? plane_of(capture, pipeline, "specular") : PlaneView{}),
       emission_(pipeline.light_model.emission ? plane_of(capture, pipeline, "emission") : PlaneView{}) {
+  if (pipeline.light_model.keeps_metals)
+    metallic_ = plane_of(capture, pipeline, "metallic"), roughness_ = plane_of(capture, pipeline, "roughness");
   const GBufferState& g = pipeline.gbuffer;
   const AttributePlane all[] = {
       {"position", plane_of(capture, pipeline, "position"), kPosition, 3, {0, 1}, g.position.interpolation},
@@ -136,6 +138,17 @@ void GBufferJudge::judge_shininess(const Range& range, double stored, uint32_t p
   if (stored != std::nearbyint(stored)) m.note("specular", 3, {range.value, range.low, range.high}, stored, 1);
 }
 
+/// A plane that no pipeline has a format for: an engine may hold it in codes of 8 bits, and hand it out as floats.
+template <typename Found>
+void GBufferJudge::judge_own_plane(const PlaneView& view, const char* name, const Range& range, int x, int y_top,
+                                   Found& m) const {
+  constexpr double kHalfCode = 0.504 / 255;
+  const double largest = view.unorm() ? double(view.layout.largest_code(0)) : 1.0,
+               stored = view.stored(x, y_top, 0) / largest;
+  if (stored >= range.low - kHalfCode && stored <= range.high + kHalfCode) return;
+  m.note(name, 0, {range.value, range.low - kHalfCode, range.high + kHalfCode}, stored, 1);
+}
+
 template <typename Found>
 bool GBufferJudge::compare(const Projector& projector, const PossibleSurface& c, int x, int y_top,
                            GBufferMemory& memory, SurfacePoint::Within within, Found& m) const {
@@ -195,6 +208,10 @@ bool GBufferJudge::compare(const Projector& projector, const PossibleSurface& c,
                    profile_);
     }
   }
+  if (metallic_ && !surface.material().unlit)
+    judge_own_plane(metallic_, "metallic", surface.specular({}, 0), x, y_top, m);
+  if (roughness_ && !surface.material().unlit)
+    judge_own_plane(roughness_, "roughness", surface.specular({}, 1), x, y_top, m);
   if (specular_ && specular_.channels > 3)
     judge_shininess(surface.shininess(), specular_.stored(x, y_top, 3), pixel, surface.rough(), m);
   for (int k = 0; k < 4 && emission_; ++k) {

@@ -99,7 +99,9 @@ TEST_CASE("What is wrong with a light program is said with its place or its opti
   }
   const Outcome outside = with({"--light-shader", "toon", "--light-parameter", "steps=0.5"});
   CHECK(outside.exit_code == 2);
-  CHECK(has(outside.err, "(from 1)"));
+  CHECK(has(outside.err, "(from 1, usually 4)"));
+  CHECK(with({"--light-shader", "toon", "--hash"}).out ==
+        with({"--light-shader", "toon", "--light-parameter", "steps=4", "--hash"}).out);
   write("zeros.spv", std::string("\x03\x02\x23\x07", 4) + std::string(64, '\0'));
   CHECK(with({"--light-shader", "zeros.spv"}).exit_code == 3);
 }

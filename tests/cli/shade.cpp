@@ -113,8 +113,7 @@ TEST_CASE("A light program reads planes of a capture by their names in --map, an
   same("s.user[2].xyz + s.user[3].www", ",user2=g.N.XYZ,user3=g.P.XYZ", "s.normal + vec3(1.0)");
   same("vec3(s.uv1, s.tangent.w) + s.tangent.xyz", ",uv1=g.albedo.RG,tangent=g.N.XYZ",
        "vec3(s.albedo.rg, 1.0) + s.normal");
-  same("vec3(s.metallic, s.roughness, s.occlusion)", ",metallic=g.albedo.R,roughness=g.albedo.G,occlusion=g.albedo.B",
-       "s.albedo.rgb");
+  same("vec3(s.occlusion)", ",occlusion=g.albedo.B", "s.albedo.bbb");
   same("s.user[0].xyz", ",user0=g.P.XYZ", "s.position");
   CHECK(verdict(",user0=g.N.XYZ").exit_code == 1);  // another plane than the picture was lit by
   const Outcome own = lit("vec3(s.uv, float(s.material))", ",uv,id.material");
@@ -135,6 +134,39 @@ TEST_CASE("A light program reads planes of a capture by their names in --map, an
     CHECK(judged.exit_code == 3);
     CHECK(judged.err.find(plane) != std::string::npos);
   }
+}
+
+TEST_CASE("Planes of metallic and roughness light a light program, and are held to the scene's materials") {
+  const ScratchFolder folder;
+  const auto run = [&](const Words& words) { return run_command(words, folder.path("")); };
+  write_bytes(folder.path("s.json"), R"({"version": 1, "camera": {"eye": [0, 2, 4], "target": [0, 0, 0]},
+    "materials": [{"name": "m", "color": [0.8, 0.5, 0.3], "metallic": 0.25, "roughness": 0.7}],
+    "objects": [{"mesh": "sphere", "material": "m"}],
+    "lights": [{"type": "directional", "direction": [-1, -1, -1], "color": [1, 1, 1]}]})");
+  write_bytes(folder.path("metals.glsl"),
+              "vec3 light(Surface s, Light l, View v) { return vec3(0); }\n"
+              "vec3 start(Surface s, View v) { return vec3(s.metallic, s.roughness, 1.0 - s.roughness); }\n");
+  const Words program = {"--light-shader", "metals.glsl", "--target", "rgba32f", "-q"};
+  const auto with_program = [&](Words words) {
+    words.insert(words.end(), program.begin(), program.end());
+    return run(words);
+  };
+  REQUIRE(with_program({"render", "s.json", "--size", "64x48", "-o", "g.exr", "--aov",
+                        "depth,position,normal,albedo,id.object"})
+              .exit_code == 0);
+  const std::string planes = "depth,position,normal,albedo,id.object,color=g.RGBA,";
+  const auto verdict = [&](const std::string& metals) {
+    return with_program({"validate", "s.json", "--size", "64x48", "--quick", "--gbuffer", "g.exr", "--subpixel-bits",
+                         "8", "--map", planes + metals});
+  };
+  const Outcome right = verdict("metallic=g.R,roughness=g.G"), gloss = verdict("metallic=g.R,roughness=g.B"),
+                swapped = verdict("metallic=g.G,roughness=g.R"), one = verdict("metallic=g.R");
+  INFO(right.out << right.err << gloss.out << one.err);
+  CHECK(right.exit_code == 0);
+  CHECK(gloss.exit_code == 1);
+  CHECK(gloss.out.find("in no legal set (gbuffer") != std::string::npos);
+  CHECK(swapped.exit_code == 1);
+  check_refused(one, 3, "plane roughness: is missing");
 }
 
 TEST_CASE("shade refuses what a G-buffer cannot tell") {

@@ -265,6 +265,9 @@ constexpr Slip kHabits[] = {
     {"many_lights", "(s.albedo.rgb * (facing",
      "(mix(1.055 * pow(s.albedo.rgb, vec3(1.0 / 2.4)) - 0.055, s.albedo.rgb * 12.92,"
      " lessThanEqual(s.albedo.rgb, vec3(0.0031308))) * (facing"},
+    {"ggx_of_docs", "mirror = f * (a2", "mirror = s.albedo.rgb * f * (a2"},
+    {"ggx_of_docs", "s.albedo.rgb, s.metallic)", "s.albedo.rgb, 0.0)"},
+    {"ggx_of_docs", "(diffuse + mirror) * nl", "(diffuse * nl + mirror)"},
 };
 
 constexpr Slip kSlips[] = {
