@@ -170,7 +170,10 @@ int compare_two_folders(CompareOptions options) {
 
 int compare_pictures(const CompareOptions& options) {
   check_names(options);
-  return is_folder(options.reference) ? compare_two_folders(options) : compare_two_pictures(options);
+  std::error_code unknown;
+  const bool is_first = options.accept && is_folder(options.test) && !fs::exists(options.reference, unknown);
+  if (is_first) make_folder_of((fs::path(options.reference) / "picture").string());
+  return is_first || is_folder(options.reference) ? compare_two_folders(options) : compare_two_pictures(options);
 }
 
 }  // namespace trueshade

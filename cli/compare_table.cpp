@@ -194,9 +194,13 @@ NamedCriteria criteria_of_line(const std::vector<std::string>& words, const Comp
   named.options.rules.criteria.clear();
   named.options.delta.reset();
   CommandTable table{"compare", {}};
+  compare::MaskRules mask;
   add_criteria(table, named.options);
+  add_mask(table, mask);
   take_options(table, std::span(words).subspan(1));
   settle_criteria(named.options);
+  check_mask(mask);
+  if (mask.any()) named.options.mask = mask;
   return named;
 }
 
@@ -276,9 +280,10 @@ CommandTable compare_table(CompareOptions& options) {
   add_switch(table, "--json", options.json, "Print all of it as one JSON document");
   add_quiet(table, options, "Print the verdict alone; say neither notes nor progress nor which files were written");
   add_criteria(table, options);
-  add_value(table, "--criteria", "FILE", options.criteria_file,
-            "Criteria of single pictures of two folders: lines of a pattern of names and the options above, of which "
-            "the first that fits a name goes before those of the command");
+  add_value(
+      table, "--criteria", "FILE", options.criteria_file,
+      "Criteria of single pictures of two folders: lines of a pattern of names and the options above, or a mask, of "
+      "which the first that fits a name goes before those of the command");
   add_parts(table, options);
   add_flip(table, options);
   add_threads(table, options.rules.threads, "Threads, 0 for one a core; never changes a figure");

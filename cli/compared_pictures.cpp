@@ -46,13 +46,20 @@ void turn_rows(PictureFile& picture) {
   }
 }
 
-/// Error(usage) for a bound that no difference of codes is beyond, which somebody gave as a number of codes.
+/// Error(usage) for a bound that no difference of codes is beyond.
 void check_bounds(const ComparedPictures& pictures, std::span<const compare::Criterion> criteria) {
+  int most_bits = 0;
   for (const PictureFile* picture : {&pictures.reference, &pictures.test})
     for (const ChannelFile& part : picture->parts)
-      if (!std::all_of(part.channels.begin(), part.channels.end(), [](const Channel& c) { return c.is_code(); }))
-        return;
+      for (const Channel& channel : part.channels) {
+        if (!channel.is_code()) return;
+        most_bits = std::max(most_bits, channel.bits);
+      }
   for (const compare::Criterion& row : criteria) {
+    if (row.measure == compare::Measure::largest_ulp && row.bound >= double((uint64_t(1) << most_bits) - 1))
+      throw Error(ErrorKind::usage, "--max-ulp",
+                  "the pictures hold codes of " + std::to_string(most_bits) + " bits, so it lets every difference pass",
+                  "give a smaller number of codes");
     const bool is_largest = row.measure == compare::Measure::largest_difference;
     if ((is_largest ? row.bound : row.delta) < 1.0) continue;
     throw Error(ErrorKind::usage, is_largest ? "--max-difference" : "--delta",

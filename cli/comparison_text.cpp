@@ -250,7 +250,7 @@ std::string comparison_text(const ComparedPictures& pictures) {
   text += line_of("colours", c.colors);
   for (const std::string& note : c.notes) text += line_of("note", note);
   if (!pictures.judged.why_not.empty()) text += line_of("not judged", pictures.judged.why_not);
-  if (!pictures.judged.validation)
+  if (!pictures.judged.validation && c.outcome != Outcome::mismatched)
     for (const compare::Judged& row : c.criteria)
       text += line_of("criterion", compare::text_of(row) + (row.holds ? ": holds" : ": DOES NOT HOLD"));
   if (c.flip) text += line_of("FLIP", flip_line(*c.flip));

@@ -58,7 +58,9 @@ std::string values_text(const compare::PixelValues& pixel) {
 class FolderComparer {
  public:
   FolderComparer(const CompareOptions& options, bool pages)
-      : options_(options), pages_(pages), mask_(mask_file(options)), named_(named_criteria(options)) {}
+      : options_(options), pages_(pages), mask_(mask_file(options)), named_(named_criteria(options)) {
+    for (const NamedCriteria& named : named_) masks_.push_back(mask_file(named.options));
+  }
 
   PictureRow compare(const std::string& name, bool in_reference, bool in_test) {
     const auto start = std::chrono::steady_clock::now();
@@ -125,14 +127,14 @@ class FolderComparer {
     compare_pair(row);
   }
 
-  /// With the criteria of the first pattern that the name fits.
-  const CompareOptions& options_of(const std::string& name) {
+  /// By the first pattern that the name fits.
+  ComparedPictures compared(const PictureRow& row) {
     for (size_t i = 0; i < named_.size(); ++i) {
-      if (fnmatch(named_[i].pattern.c_str(), name.c_str(), 0) != 0) continue;
+      if (fnmatch(named_[i].pattern.c_str(), row.name.c_str(), 0) != 0) continue;
       used_.insert(i);
-      return named_[i].options;
+      return compared_pictures(reference(row), test(row), named_[i].options, masks_[i]);
     }
-    return options_;
+    return compared_pictures(reference(row), test(row), options_, mask_);
   }
 
   /// Maps and pages of an earlier run, when the picture did not pass.
@@ -143,7 +145,7 @@ class FolderComparer {
   }
 
   void compare_pair(PictureRow& row) {
-    const ComparedPictures pictures = compared_pictures(reference(row), test(row), options_of(row.name), mask_);
+    const ComparedPictures pictures = compared(row);
     const compare::Comparison& c = pictures.comparison;
     row.state = pictures.judged.validation && trueshade::passes(pictures) ? RowState::within : state_of(c.outcome);
     row.reason = verdict_line(pictures);
@@ -182,7 +184,8 @@ class FolderComparer {
   const bool pages_;
   const std::optional<PictureFile> mask_;
   const std::vector<NamedCriteria> named_;
-  std::set<size_t> used_;  // places in named_
+  std::vector<std::optional<PictureFile>> masks_;  // of named_
+  std::set<size_t> used_;                          // places in named_
 };
 
 }  // namespace

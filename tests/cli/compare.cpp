@@ -535,6 +535,26 @@ TEST_CASE(
   CHECK(run_compare(folder, {"ref", "test"}).exit_code == 0);
 }
 
+TEST_CASE("compare --accept makes the folder of references that is not there yet") {
+  const ScratchFolder folder;
+  write_folders(folder);
+  const Outcome outcome = run_compare(folder, {"new/golden", "test", "--accept"});
+  CHECK(outcome.exit_code == 0);
+  says(outcome, "3 accepted");
+  CHECK(content_of(folder.path("new/golden/extra.exr")) == content_of(folder.path("test/extra.exr")));
+  CHECK(run_compare(folder, {"new/golden", "test"}).exit_code == 0);
+  CHECK(run_compare(folder, {"absent", "test"}).exit_code == 5);
+}
+
+TEST_CASE("pictures that do not fit together meet no criterion") {
+  const ScratchFolder folder;
+  write_floats(folder.path("ref.exr"), even_plane(8, 6, 3, 0.25), kRgb);
+  write_floats(folder.path("test.exr"), even_plane(8, 7, 3, 0.25), kRgb);
+  const Outcome outcome = run_compare(folder, {"ref.exr", "test.exr", "--max-difference", "1"});
+  CHECK(outcome.exit_code == 1);
+  CHECK(outcome.out.find("holds") == std::string::npos);
+}
+
 TEST_CASE("compare --accept writes through no link, neither of a picture nor of a folder") {
   const ScratchFolder folder;
   write_folders(folder);
@@ -663,6 +683,12 @@ TEST_CASE("compare --criteria: the first pattern that fits a name has a picture'
   CHECK(passing(first) == Names{"flat.exr", "noise/a b.exr"});
   CHECK(first.at("unused_criteria") == nlohmann::json::array({"absent*"}));
 
+  EnginePlane right_half = even_plane(8, 6, 1, 1.0);
+  for (size_t i = 0; i < right_half.values.size(); ++i) right_half.values[i] = i % 8 < 4 ? 0.0 : 1.0;
+  write_floats(folder.path("mask.exr"), right_half, {"Y"});
+  const auto masked = outcomes("flat.exr --pixels 24 --mask mask.exr --allow-mask\nnoise/c.exr --pixels 24\n");
+  CHECK(passing(masked) == Names{"flat.exr"});
+
   const auto refused = [&folder](const char* criteria, const char* about) {
     folder.write("criteria.txt", criteria);
     check_refused(run_compare(folder, {"ref", "test", "--criteria", "criteria.txt"}), 3, about);
@@ -692,6 +718,9 @@ TEST_CASE("a bound that no difference of codes is beyond is refused, and of floa
     CHECK(refused.exit_code == 2);
     CHECK(refused.err.find("so it lets every difference pass (give a fraction, like 2/255)") != std::string::npos);
   }
+  CHECK(run_compare(folder, {"many-lights.png", "redsdk.png", "--max-ulp", "254"}).exit_code < 2);
+  check_refused(run_compare(folder, {"many-lights.png", "redsdk.png", "--max-ulp", "255"}), 2,
+                "the pictures hold codes of 8 bits, so it lets every difference pass");
   with_pair(folder, [](EnginePlane& plane) { plane.values[0] += 1.5f; });
   CHECK(run_compare(folder, {"ref.exr", "test.exr", "--max-difference", "2"}).exit_code == 0);
   CHECK(run_compare(folder, {"ref.exr", "test.exr", "--max-difference", "1"}).exit_code == 1);
