@@ -150,12 +150,7 @@ Camera ChangedCamera::camera(const Scene& scene) const {
 
 void ChangedCamera::see(Scene& scene) const {
   scene.camera = camera(scene);
-  if (lamps_)
-    for (size_t i = 0; i < lamps_->size(); ++i) {
-      Light& lamp = scene.lights[scene.lights.size() - kLightsOfOurs + i];
-      (lamp.type == LightType::directional ? lamp.direction : lamp.position) =
-          lamp.type == LightType::directional ? (*lamps_)[i].direction : (*lamps_)[i].position;
-    }
+  if (lamps_) place_lamps(scene, *lamps_);
   if (!scene.ground_of_ours || scene.instances.empty() || !changes_.any()) return;
   const FpScope fp;
   Instance& ground = scene.instances.back();

@@ -183,6 +183,19 @@ std::array<LampPlace, kLightsOfOurs - 1> lamps_for(const Scene& scene, const glm
   return places;
 }
 
+void turn_lamps(Scene& scene, const glm::dvec2& turn) {
+  if (!scene.lights_of_ours || turn == glm::dvec2(0.0, 1.0)) return;
+  place_lamps(scene, lamps_for(scene, glm::dvec3(0.0, 1.0, 0.0), turn));
+}
+
+void place_lamps(Scene& scene, std::span<const LampPlace> places) {
+  for (size_t i = 0; i < places.size(); ++i) {
+    Light& lamp = scene.lights[scene.lights.size() - kLightsOfOurs + i];
+    (lamp.type == LightType::directional ? lamp.direction : lamp.position) =
+        lamp.type == LightType::directional ? places[i].direction : places[i].position;
+  }
+}
+
 void add_ground(Scene& scene) {
   constexpr int kSides = 96;
   const FpScope fp;

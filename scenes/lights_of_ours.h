@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <span>
 
 #include "scenes/scene.h"
 #include "scenes/scene_defaults.h"
@@ -29,6 +30,11 @@ struct LampPlace {
 /// places them.
 std::array<LampPlace, kLightsOfOurs - 1> lamps_for(const Scene& scene, const glm::dvec3& vertical,
                                                    const glm::dvec2& turn);
+
+/// Puts the lamps of a scene there.
+void place_lamps(Scene& scene, std::span<const LampPlace> places);
+/// The same around the y axis.
+void turn_lamps(Scene& scene, const glm::dvec2& turn);
 
 /// How many times as much light one of these lamps gives in a photometric scene as in others; 1 for ambient light.
 double spread_light(const Light& lamp);

@@ -118,7 +118,52 @@ void add_points(const Scene& scene, const Bounds& bounds, Seen& seen) {
   }
 }
 
+constexpr glm::dvec3 kFromTheFront(0.45, 0.38, 1.0);
+
+/// A direction turned about the y axis, from +z to +x.
+glm::dvec3 turned(const glm::dvec3& v, const glm::dvec2& turn) {
+  return {v.x * turn.y + v.z * turn.x, v.y, v.z * turn.y - v.x * turn.x};
+}
+
+/// Areas as they are seen along a direction, times two: of faces that are drawn there, and of all.
+struct SeenAreas {
+  double drawn = 0.0, all = 0.0;
+};
+
+SeenAreas areas_from(const Scene& scene, const glm::dvec3& toward) {
+  SeenAreas areas;
+  for (const Instance& instance : without_ground(scene)) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const bool has_backs = scene.materials[instance.material].double_sided;
+    const auto corner = [&](size_t i) {
+      glm::dvec3 at(0.0);
+      for (int k = 0; k < 3; ++k)
+        at += glm::dvec3(instance.world_from_object[k]) * double(mesh.position[size_t(k)][mesh.indices[i]]);
+      return at;
+    };
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+      const glm::dvec3 a = corner(i);
+      const double seen = dot(cross(corner(i + 1) - a, corner(i + 2) - a), toward) * (instance.mirrored ? -1.0 : 1.0);
+      areas.all += std::fabs(seen);
+      areas.drawn += has_backs ? std::fabs(seen) : std::max(seen, 0.0);
+    }
+  }
+  return areas;
+}
+
 }  // namespace
+
+glm::dvec2 turn_of_side(const Scene& scene) {
+  constexpr glm::dvec2 kTurns[] = {{0.0, 1.0}, {0.0, -1.0}, {1.0, 0.0}, {-1.0, 0.0}};
+  constexpr double kLeastDrawn = 0.1;
+  const FpScope fp;
+  if (!scene.photometric) return kTurns[0];
+  const SeenAreas front = areas_from(scene, kFromTheFront);
+  if (!(front.drawn < kLeastDrawn * front.all)) return kTurns[0];
+  return *std::max_element(std::begin(kTurns), std::end(kTurns), [&](const glm::dvec2& a, const glm::dvec2& b) {
+    return areas_from(scene, turned(kFromTheFront, a)).drawn < areas_from(scene, turned(kFromTheFront, b)).drawn;
+  });
+}
 
 Bounds bounds_of(const Scene& scene) { return bounds_of(scene, scene.instances); }
 
@@ -160,7 +205,7 @@ Camera camera_seeing(const Scene& scene, double aspect, float fov_y_rad) {
   Camera camera;
   camera.fov_y_rad = fov_y_rad;
   SeenFrom view;
-  view.toward = unit({0.45, 0.38, 1.0});
+  view.toward = unit(turned(kFromTheFront, turn_of_side(scene)));
   view.right = unit(cross(glm::dvec3(0.0, 1.0, 0.0), view.toward)), view.up = cross(view.toward, view.right);
   const double slope = tangent(0.5 * double(fov_y_rad));
   view.slope = {slope * aspect, slope};

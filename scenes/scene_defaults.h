@@ -34,7 +34,12 @@ struct Framing {
 };
 Framing framing_of(const Scene& scene, const SeenFrom& view);
 
-/// A camera above and to the right of the front that sees all that is drawn: it fills 85 % of the width or of the
+/// How far the side that camera_seeing() looks from is turned from the front, +z, to the right: the sine and the cosine
+/// of the angle. (0, 1) but for a glTF model that shows hardly anything but backs there, which are not drawn: then it is
+/// the side, of the front, the back and both others, where most fronts are seen.
+glm::dvec2 turn_of_side(const Scene& scene);
+
+/// A camera above and to the right of the front, or of the side of turn_of_side(), that sees all that is drawn: it fills 85 % of the width or of the
 /// height of a picture of this aspect, width / height, and is in the middle. `fov_y_rad`: full vertical angle.
 Camera camera_seeing(const Scene& scene, double aspect = 1.0, float fov_y_rad = 0.5f);
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scenes/builtin/pcg32.h"
+#include "scenes/lights_of_ours.h"
 #include "scenes/scene_defaults.h"
 #include "tests/catch.hpp"
 
@@ -76,6 +77,31 @@ TEST_CASE("A scene without a camera fills 85 % of a picture's width or height, w
     full += is_full[0] || is_full[1];
   }
   CHECK(full >= 250);
+}
+
+TEST_CASE("A glTF model that turns its backs to the front is seen from where its fronts are, and no other is turned") {
+  Scene scene;
+  scene.meshes.push_back(mesh_of({{0, 0, 0}, {0, 1, 0}, {1, 0, 0}}));  // seen from -z
+  scene.meshes[0].indices = {0, 1, 2};
+  scene.materials.emplace_back();
+  scene.instances.emplace_back();
+  CHECK(turn_of_side(scene) == glm::dvec2(0, 1));
+  scene.photometric = true;
+  CHECK(turn_of_side(scene) == glm::dvec2(0, -1));
+  CHECK(camera_seeing(scene).eye.z < -0.5f);
+  scene.instances[0].mirrored = true;
+  CHECK(turn_of_side(scene) == glm::dvec2(0, 1));
+  scene.instances[0].mirrored = false;
+  scene.materials[0].double_sided = true;
+  CHECK(turn_of_side(scene) == glm::dvec2(0, 1));
+  scene.materials[0].double_sided = false;
+  scene.meshes[0].indices = {0, 1, 2, 0, 2, 1};  // a sheet with both sides
+  CHECK(turn_of_side(scene) == glm::dvec2(0, 1));
+  // Turned lamps light the side that is seen: the key light is on the eye's left.
+  add_lights_of_ours(scene);
+  const glm::vec3 key = scene.lights[0].position;
+  turn_lamps(scene, {0, -1});
+  CHECK(scene.lights[0].position.z * key.z < 0.0f);
 }
 
 TEST_CASE("What is drawn nowhere has a camera all the same") {

@@ -40,7 +40,10 @@ Scene SceneMaker::make() {
   scene_.camera_of_ours = !timeline.node_camera;
   if (scene_.camera_of_ours) scene_.camera = camera_seeing(scene_);
   if (!moves()) timeline = Timeline{};
-  if (scene_.lights.empty()) add_lights_of_ours(scene_);
+  if (scene_.lights.empty()) {
+    add_lights_of_ours(scene_);
+    if (scene_.camera_of_ours) turn_lamps(scene_, turn_of_side(scene_));
+  }
   add_notes();
   faults_.tell(scene_);
   return std::move(scene_);
