@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "bench/peers.h"
+#include "core/error.h"
 #include "gl/driver/designs.h"
 
 namespace trueshade {
@@ -107,6 +108,14 @@ std::span<const std::string_view> gl_design_names() {
     return all;
   }();
   return names;
+}
+
+std::string gl_driver_here() {
+  try {
+    return oracle::GlContext().info().line();
+  } catch (const Error&) {
+    return {};
+  }
 }
 
 std::unique_ptr<Peers> gl_peers(const Scene& scene, const Pipeline& pipeline, std::span<const std::string> designs) {

@@ -26,6 +26,9 @@ class Peers {
 /// Names of the designs of gl/driver/designs.h; none where OpenGL was not built in.
 std::span<const std::string_view> gl_design_names();
 
+/// Vendor, renderer and version of the OpenGL driver at hand, which is opened for it; empty where there is none.
+std::string gl_driver_here();
+
 /// OpenGL in these designs, in all of them where none is named, on the driver at hand. Designs that a user picks for
 /// speed cull back faces where that changes at most one pixel in 50,000. Throws Error(no_gl_driver), Error(usage) for
 /// lights whose extents one shader cannot tell apart.

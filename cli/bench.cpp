@@ -251,7 +251,7 @@ void bench(const BenchOptions& options) {
       print((result.scenes.size() == 1
                  ? bench_heading(result.machine, result.simd, result.threads) + machine_text(result.machine)
                  : "") +
-            bench_text(result.scenes.back(), result));
+            bench_text(result.scenes.back(), result, options.quiet));
   }
   if (const std::string reason = clock_reason(clocks); !reason.empty()) result.reasons.push_back(reason);
   if (options.report) {
@@ -265,6 +265,7 @@ void bench(const BenchOptions& options) {
     write_file(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
     say_written(path, about, json_printed ? StandardOutput::answer : StandardOutput::files);
   };
+  if (options.json_file && result.machine.opengl.empty()) result.machine.opengl = gl_driver_here();
   if (options.json_file && !json_printed) write(*options.json_file, "JSON", bench_json(result));
   if (options.report) write(*options.report, "HTML report", bench_page(result));
   if (json_printed) print(bench_json(result));

@@ -121,7 +121,8 @@ std::string machine_json(const Machine& machine);
 std::string load_json(const Load& load);
 std::string reasons_json(const std::vector<std::string>& reasons);
 std::string reasons_text(const std::vector<std::string>& reasons, const std::string& indent);
-std::string bench_text(const SceneTime& scene, const BenchResult& bench);  ///< one scene's lines
+/// One scene's lines; of a short text its times alone.
+std::string bench_text(const SceneTime& scene, const BenchResult& bench, bool is_short);
 std::string bench_json(const BenchResult& bench);
 std::string bench_page(const BenchResult& bench);
 

@@ -45,6 +45,7 @@ std::string machine_text(const Machine& machine) {
   std::string text = cpu.vendor;
   for (const auto& [name, value] : numbers_of(cpu)) text += std::string(" ") + name + ' ' + std::to_string(value);
   text += "; " + std::to_string(cpu.cores) + " cores, " + std::to_string(cpu.threads) + " threads";
+  if (machine.cores < cpu.threads) text += ", of which this process may use " + std::to_string(machine.cores);
   for (const Cache& cache : machine.caches) text += ", " + cache_text(cache);
   text += "; " + memory_text(machine.memory_mib) + "; " + machine.os + ", " + machine.kernel + "; " + machine.compiler +
           ", " + machine.c_library;

@@ -191,7 +191,7 @@ double SceneTime::scheduled_speedup(int cores) const {
   return ms_on(1) / ms_on(cores);
 }
 
-std::string bench_text(const SceneTime& s, const BenchResult& bench) {
+std::string bench_text(const SceneTime& s, const BenchResult& bench, bool is_short) {
   const FrameStats& f = s.stats;
   std::string text = "\n" + s.scene + "  " + s.pipeline.preset + "  " + size_text(s.pipeline) +
                      "  sha256:" + s.hash.substr(0, 16) + "\n";
@@ -201,6 +201,7 @@ std::string bench_text(const SceneTime& s, const BenchResult& bench) {
                      formatted(s.ratio(peer), "%.2fx ours") + picture_text(peer));
   text += reasons_text(s.reasons, "  ") + fastest_text(s);
   if (s.moving) text += moving_text(*s.moving);
+  if (is_short) return text;
   text += "  visibility " + formatted(f.core_ms.visibility, "%.2f") + " ms, surfaces " +
           formatted(f.core_ms.surfaces, "%.2f") + " ms, light " + formatted(f.core_ms.light, "%.2f") + " ms, store " +
           formatted(f.core_ms.store, "%.2f") + " ms of core time; " + formatted(ns_per_pixel_light(s), "%.2f") +

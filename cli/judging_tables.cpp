@@ -106,7 +106,7 @@ CommandTable bench_table(BenchOptions& options) {
   table.open_group = "Output";
   add_value(table, "-o,--output", "FILE", options.report, "Report to write, .html; also times how frames scale");
   add_value(table, "--json", "FILE", options.json_file, "JSON document to write; - prints it instead of the text");
-  add_quiet(table, options, "Say neither notes nor progress nor which files were written");
+  add_quiet(table, options, "Print the times alone; say neither notes nor progress nor which files were written");
   table.open_group = "Measurement";
   add_read(table, "--against", "PEERS", options.against, peers_from_text,
            "Peers in the same run, with commas: gl (every design) or gl=DESIGN+DESIGN, embree (visibility), "

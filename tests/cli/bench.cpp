@@ -48,6 +48,11 @@ TEST_CASE("bench times the frame that render draws, beside Embree, and writes it
   const Outcome render = run_command({"render", "builtin:circle,lights=3", "--size", "64x48", "--hash"});
   CHECK(render.out.substr(0, render.out.find(' ')) == scene["hash"].get<std::string>());
   CHECK(json["machine"]["clock_ghz"].get<double>() > 0.0);
+  // A short text has the times and no more.
+  CHECK(bench.out.find("pixel-lights left by tiles") != std::string::npos);
+  const Outcome quiet = run_command({"bench", "builtin:circle,lights=3", "--size", "64x48", "--quick", "-q"});
+  CHECK(quiet.out.find("  trueshade  ") != std::string::npos);
+  CHECK(quiet.out.find("pixel-lights left by tiles") == std::string::npos);
 }
 
 TEST_CASE("bench --moving times each frame of a sequence against itself drawn again") {

@@ -59,7 +59,7 @@ TEST_CASE("Of --lenient: it shows a file with faults, and every output says so")
     check_refused(folder.run(words), 5, kHint);
   const Outcome drawn =
       folder.render("lost.obj", {"--lenient", "-o", "a.png", "-o", "a.exr", "-o", "a.html", "--json"});
-  CHECK(has(drawn.err, std::string("trueshade: note: As --lenient asks: ") + kLost));
+  CHECK(has(drawn.err, std::string("trueshade: note: As --lenient asks, which makes this no reference: ") + kLost));
   CHECK(json::parse(drawn.out).at("lenient").get<std::string>().starts_with(kLost));
   CHECK(folder.said("a.png").starts_with(kLost));
   CHECK(folder.said("a.exr").starts_with(kLost));

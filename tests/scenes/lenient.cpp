@@ -29,7 +29,7 @@ Scene passed(const std::string& content, ErrorKind kind = ErrorKind::bad_input) 
 std::string the_fault(const Scene& scene) {
   CHECK(scene.passed_over.size() == 1);
   const std::string line = scene.passed_over.empty() ? "" : scene.passed_over.front();
-  CHECK(std::find(scene.notes.begin(), scene.notes.end(), "As --lenient asks: " + line) != scene.notes.end());
+  CHECK(std::find(scene.notes.begin(), scene.notes.end(), "As --lenient asks, which makes this no reference: " + line) != scene.notes.end());
   return line;
 }
 

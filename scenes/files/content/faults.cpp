@@ -83,7 +83,7 @@ void Faults::tell(Scene& scene) const {
 void tell_passed_over(const std::vector<std::string>& lines, Scene& scene) {
   for (const std::string& line : lines) {
     scene.passed_over.push_back(line);
-    scene.notes.push_back("As --lenient asks: " + line);
+    scene.notes.push_back("As --lenient asks, which makes this no reference: " + line);
   }
 }
 
