@@ -253,9 +253,10 @@ TEST_CASE("Light markers on llvmpipe are where ours are, but for their edges and
 TEST_CASE("Constant damping scales every light's colour on llvmpipe as in ours") {
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
+  KeptPrograms programs;
   for (const char* name : {"cornell", "city,objects=300,lights=30"}) {
     const Scene scene = builtin_scene(name);
-    GlRenderer renderer(*context, scene);
+    GlRenderer renderer(*context, scene, 0, &programs);
     Pipeline pipeline = pipeline_with({});
     pipeline.light_model.damping = 1.0f;
     const Capture whole = renderer.draw(pipeline).capture;

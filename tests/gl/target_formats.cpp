@@ -52,10 +52,11 @@ double step_at(Format format, int channel, double value) {
 TEST_CASE("Sums on llvmpipe are legal in every target format, srgb8_a8 encoded and rgb16f without an alpha") {
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
+  KeptPrograms programs;
   for (const char* name : {"cornell", "city,objects=300,lights=30"}) {
     Scene scene = builtin_scene(name);
     scene.clear = {0.25f, 0.5f, 0.75f, 0.5f};
-    GlRenderer renderer(*context, scene);
+    GlRenderer renderer(*context, scene, 0, &programs);
     for (const Format target : kTargetFormats) {
       INFO(name << ", " << info(target).name);
       const Pipeline pipeline = pipeline_of(target);
@@ -104,10 +105,11 @@ TEST_CASE("A target of three halves that a driver cannot render to is drawn as f
 TEST_CASE("Lights blended into every target format on llvmpipe come out as ours, within a step of the format a light") {
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
+  KeptPrograms programs;
   const std::string aovs[] = {"id.object", "light.count"};
   for (const char* name : {"cornell", "city,objects=300,lights=30"}) {
     const Scene scene = builtin_scene(name);
-    GlRenderer renderer(*context, scene);
+    GlRenderer renderer(*context, scene, 0, &programs);
     for (const Format target : kTargetFormats)
       for (const Strategy strategy : {Strategy::deferred_volumes, Strategy::forward_multipass}) {
         Pipeline pipeline = pipeline_of(target);
@@ -146,9 +148,10 @@ TEST_CASE("Lights blended into every target format on llvmpipe come out as ours,
 TEST_CASE("Planes of ten bits and of halves on llvmpipe are legal, and so is the light upon them") {
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
+  KeptPrograms programs;
   for (const char* name : {"cornell", "city,objects=300,lights=30"}) {
     const Scene scene = builtin_scene(name);
-    GlRenderer renderer(*context, scene);
+    GlRenderer renderer(*context, scene, 0, &programs);
     for (const Format normal : {Format::rgba32f, Format::rgba16f, Format::rgb16f})  // codes: below
       for (const Format albedo : kAlbedoFormats) {
         INFO(name << ", normal " << info(normal).name << ", albedo " << info(albedo).name);
@@ -168,9 +171,10 @@ TEST_CASE("Planes of ten bits and of halves on llvmpipe are legal, and so is the
 TEST_CASE("Normals of ten bits on llvmpipe are one of the two codes next to the driver's own normals in floats") {
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
+  KeptPrograms programs;
   for (const char* name : {"cornell", "rabbits,objects=3"}) {
     const Scene scene = builtin_scene(name);
-    GlRenderer renderer(*context, scene);
+    GlRenderer renderer(*context, scene, 0, &programs);
     Pipeline pipeline = pipeline_of(Format::rgba8);
     const Capture floats = renderer.draw(pipeline).capture;
     pipeline.gbuffer.normal.format = Format::rgb10_a2;

@@ -57,12 +57,13 @@ Scene wavy_scene(int count, float shininess) {
 void judge_cases(GlDriver which, std::initializer_list<int> counts) {
   const GlContext* context = testing::opened(which);
   if (context == nullptr) return;
+  KeptPrograms programs;
   const Profile unknown;
   double largest = 0;
   for (const int count : counts)
     for (const float s : {8.0f, 64.0f, 256.0f}) {
       const Scene scene = wavy_scene(count, s);
-      GlRenderer renderer(*context, scene);
+      GlRenderer renderer(*context, scene, 0, &programs);
       Pipeline pipeline;
       pipeline.width = kWidth, pipeline.height = kHeight;
       pipeline.light_model.shininess = s;

@@ -111,6 +111,7 @@ TEST_CASE("Maps, ten-bit normals, mixed extents and glass by llvmpipe are explai
           "[slow]") {
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
+  KeptPrograms programs;
   const bool known = testing::is_of_known_profile(*context);
   uint64_t layered = 0;
   for (const Preset& preset : stated_presets())
@@ -126,7 +127,7 @@ TEST_CASE("Maps, ten-bit normals, mixed extents and glass by llvmpipe are explai
         if (mode == TransparencyMode::into_albedo) mix_extents(scene, pipeline);
         add_glass(scene);
         add_bumps(scene, pipeline);
-        GlRenderer renderer(*context, scene);
+        GlRenderer renderer(*context, scene, 0, &programs);
         const Watched drawn(renderer, pipeline);
         for (const char* name : {"unknown", "mesa-llvmpipe-22.3"}) {
           Profile profile = *profile_named(name);
@@ -229,16 +230,17 @@ TEST_CASE("What llvmpipe clears is explained in every target format, whatever th
 TEST_CASE("What llvmpipe draws is explained by its profile and by any GPU's, and its profile is inferred") {
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
+  KeptPrograms programs;
   const bool known = testing::is_of_known_profile(*context);
   for (const char* name : {"city", "sphere", "cornell", "circle"}) {
     const Scene scene = builtin_scene(name);
-    GlRenderer renderer(*context, scene);
+    GlRenderer renderer(*context, scene, 0, &programs);
     std::map<std::string, Others> others;
     for (const Preset& preset : stated_presets()) {
       Pipeline pipeline = preset.pipeline;
       if (pipeline.strategy != Strategy::deferred_loop) continue;  // the others: above
-      pipeline.width = 200;
-      pipeline.height = 150;
+      pipeline.width = 120;
+      pipeline.height = 90;
       pipeline.gbuffer.normal.format = Format::rgba16f;
       const Capture capture = renderer.draw(pipeline).capture;
       for (const char* profile_name : {"unknown", "mesa-llvmpipe-22.3"}) {
@@ -256,7 +258,7 @@ TEST_CASE("What llvmpipe draws is explained by its profile and by any GPU's, and
               std::printf(" %s %llu", std::string(text(PixelClass(c))).c_str(),
                           static_cast<unsigned long long>(s.counts[c]));
           std::printf("; predicted %.1f, error / bound %.3f\n", s.predicted_other, s.worst_error);
-          CHECK(s.count(PixelClass::exact) + s.count(PixelClass::store_2) >= uint64_t(0.99 * 200 * 150));
+          CHECK(s.count(PixelClass::exact) + s.count(PixelClass::store_2) >= uint64_t(0.99 * 120 * 90));
           Others& sum = others[std::string(profile_name) + ", " + s.stage];
           sum.seen += s.explained(), sum.predicted += s.predicted_other;
         }

@@ -16,6 +16,7 @@ using namespace trueshade::testing;
 TEST_CASE("llvmpipe draws a city by a matrix of 2^-100 as by any other, and is explained") {
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
+  KeptPrograms programs;
   for (const Strategy strategy : {Strategy::deferred_loop, Strategy::deferred_volumes, Strategy::forward_loop}) {
     Pipeline pipeline = presets().front().pipeline;
     pipeline.width = 96, pipeline.height = 72;
@@ -29,7 +30,7 @@ TEST_CASE("llvmpipe draws a city by a matrix of 2^-100 as by any other, and is e
       const Matrix4 matrix = projection_of(scene.camera, pipeline.geometry, pipeline.width, pipeline.height);
       scene.camera.clip_from_world.emplace();
       for (size_t e = 0; e < 16; ++e) (*scene.camera.clip_from_world)[e] = std::ldexp(float(matrix[e]), -k);
-      GlRenderer renderer(*context, scene);
+      GlRenderer renderer(*context, scene, 0, &programs);
       const Capture theirs = renderer.draw(pipeline).capture;
       ValidateOptions options;
       options.profile.subpixel_bits = context->info().subpixel_bits;

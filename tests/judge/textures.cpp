@@ -109,11 +109,12 @@ TEST_CASE("Our own textured frames are EXACT or TEX to the ideal profile, and le
 TEST_CASE("What llvmpipe makes of textures is legal: every format, wrap and filter, and masks") {
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
+  KeptPrograms programs;
   uint64_t pixels = 0, tex = 0;
   for (int variant = 0; variant < 12; ++variant) {
     const Scene scene = textured_room(variant);
     const Pipeline pipeline = pipeline_of();
-    GlRenderer renderer(*context, scene);
+    GlRenderer renderer(*context, scene, 0, &programs);
     const Capture capture = renderer.draw(pipeline).capture;
     const Verdict v = judged(scene, pipeline, capture, "unknown", context->info().subpixel_bits);
     INFO(verdict_json(v));
@@ -187,10 +188,11 @@ TEST_CASE(
 TEST_CASE("What llvmpipe makes of maps of metal, emission and occlusion, and of unlit surfaces, is legal") {
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
+  KeptPrograms programs;
   for (int variant = 0; variant < 12; ++variant) {
     const Scene scene = metal_room(variant);
     const Pipeline pipeline = metal_pipeline(variant);
-    GlRenderer renderer(*context, scene);
+    GlRenderer renderer(*context, scene, 0, &programs);
     const Capture capture = renderer.draw(pipeline).capture;
     const Verdict v = judged(scene, pipeline, capture, "unknown", context->info().subpixel_bits);
     INFO(variant << verdict_json(v));

@@ -171,10 +171,11 @@ TEST_CASE("Both sides and every set of texture coordinates in our own frames are
 TEST_CASE("What llvmpipe makes of both sides, mirrored instances and further texture coordinates is legal") {
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
+  KeptPrograms programs;
   const Scene scene = room();
   for (const Pipeline& pipeline : pipelines()) {
     INFO(pipeline_json(pipeline));
-    GlRenderer renderer(*context, scene);
+    GlRenderer renderer(*context, scene, 0, &programs);
     const Capture capture = renderer.draw(pipeline).capture;
     CHECK(violations(scene, pipeline, capture, "unknown", context->info().subpixel_bits) == 0);
     if (is_of_known_profile(*context)) CHECK(violations(scene, pipeline, capture, "mesa-llvmpipe-22.3", 8) == 0);
@@ -261,6 +262,7 @@ constexpr struct {
 TEST_CASE("What llvmpipe makes of vertices' tangents is legal, and what it makes of wrong ones is not") {
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
+  KeptPrograms programs;
   const Scene scene = room_with_tangents();
   for (const Pipeline& pipeline : pipelines()) {
     INFO(pipeline_json(pipeline));
@@ -276,7 +278,7 @@ TEST_CASE("What llvmpipe makes of vertices' tangents is legal, and what it makes
       CHECK(violations(scene, pipeline, GlRenderer(*context, other).draw(drawn).capture, "unknown",
                        context->info().subpixel_bits) > 7);
     }
-    GlRenderer renderer(*context, scene);
+    GlRenderer renderer(*context, scene, 0, &programs);
     GlDraw draw;
     draw.shader_options = renderer.shader_options(draw);
     for (const auto& wrong : kWrongText) {
