@@ -95,7 +95,8 @@ bool accepted(const CompareOptions& options, const PictureFile& test) {
 }
 
 int compare_two_pictures(const CompareOptions& options) {
-  if (options.criteria_file) throw usage("--criteria", "it is by names within two folders", "give the options themselves");
+  if (options.criteria_file)
+    throw usage("--criteria", "it is by names within two folders", "give the options themselves");
   check_picture_outputs(options);
   std::error_code unknown;
   if (options.accept && !fs::exists(options.reference, unknown)) {
@@ -172,7 +173,6 @@ int compare_pictures(const CompareOptions& options) {
   check_names(options);
   std::error_code unknown;
   const bool is_first = options.accept && is_folder(options.test) && !fs::exists(options.reference, unknown);
-  if (is_first) make_folder_of((fs::path(options.reference) / "picture").string());
   return is_first || is_folder(options.reference) ? compare_two_folders(options) : compare_two_pictures(options);
 }
 

@@ -181,8 +181,9 @@ std::vector<std::string> words_of_line(std::string_view line) {
   std::vector<std::string> words;
   for (size_t at = 0; (at = line.find_first_not_of(" \t\r", at)) != std::string_view::npos;) {
     const bool is_quoted = line[at] == '"';
-    const size_t begin = at + (is_quoted ? 1 : 0),
-                 end = std::min(line.find_first_of(is_quoted ? "\"" : " \t\r", begin), line.size());
+    const size_t begin = at + (is_quoted ? 1 : 0), found = line.find_first_of(is_quoted ? "\"" : " \t\r", begin),
+                 end = std::min(found, line.size());
+    if (is_quoted && found == std::string_view::npos) throw usage("quote", "it is not closed", "add another");
     words.emplace_back(line.substr(begin, end - begin));
     at = std::min(end + (is_quoted ? 1 : 0), line.size());
   }
@@ -307,14 +308,16 @@ std::vector<NamedCriteria> named_criteria(const CompareOptions& options) {
   std::vector<NamedCriteria> all;
   if (!options.criteria_file) return all;
   const Bytes bytes = read_user_file(*options.criteria_file, kMostBytes, {});
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // as some editors begin UTF-8
   size_t number = 0;
   for (size_t at = 0; at < text.size();) {
     const size_t end = std::min(text.find('\n', at), text.size());
-    const std::vector<std::string> words = words_of_line(text.substr(at, end - at));
+    const std::string_view line = text.substr(at, end - at);
     at = end + 1, ++number;
-    if (words.empty() || words.front().starts_with('#')) continue;
     try {
+      const std::vector<std::string> words = line.starts_with('#') ? std::vector<std::string>() : words_of_line(line);
+      if (words.empty()) continue;
       all.push_back(criteria_of_line(words, options));
     } catch (const Error& error) {
       const std::string what = error.what();  // REASON (REMEDY)

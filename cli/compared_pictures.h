@@ -69,6 +69,12 @@ std::string comparison_page(const ComparedPictures& pictures, const std::string&
 /// Why there is nothing that write_differences() could write to a file of that name; empty if there is something.
 std::string why_no_differences(const ComparedPictures& pictures, const std::string& path);
 
+inline constexpr std::string_view kComparisonTitle = "Two pictures, compared";  ///< of such a page
+
+/// Whether a file was written by write_differences() as a map, or holds a comparison_page().
+bool is_difference_map(const std::string& path);
+bool is_comparison_page(const std::string& path);
+
 /// Writes a picture of the differences: .png the FLIP map, .exr the absolute difference of each channel that both have.
 void write_differences(const ComparedPictures& pictures, const std::string& path);
 

@@ -1,15 +1,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 
 #include "cli/compared_pictures.h"
 #include "cli/picture_output.h"
 #include "compare/error_colors.h"
+#include "core/error.h"
 #include "core/file_ending.h"
 #include "core/image_files/image_io.h"
 
 namespace trueshade {
 namespace {
+
+constexpr const char* kDifferenceKey = "trueshade:difference";  // of a picture's metadata
 
 /// |reference - test| of a channel, as floats; 0 where pixels are left out.
 void put_differences(const compare::PairReader& reader, const PixelMask& mask, size_t channel, Image& image) {
@@ -40,7 +44,7 @@ void write_difference_exr(const ComparedPictures& pictures, const std::string& p
       planes.push_back({pair.name, Image(p.width, p.height, Format::d32f)});
       put_differences(reader, pictures.mask, 0, planes.back().image);
     }
-  write_image(path, color, planes, {{"trueshade:difference", "absolute, test against reference"}});
+  write_image(path, color, planes, {{kDifferenceKey, "absolute, test against reference"}});
 }
 
 }  // namespace
@@ -51,12 +55,29 @@ std::string why_no_differences(const ComparedPictures& pictures, const std::stri
   return c.pairing.parts.empty() ? "no channels of the pictures fit together" : "";
 }
 
+bool is_comparison_page(const std::string& path) {
+  constexpr size_t kHead = 1024;
+  std::ifstream file(path, std::ios::binary);
+  std::string head(kHead, '\0');
+  file.read(head.data(), std::streamsize(head.size()));
+  return head.find("<title>" + std::string(kComparisonTitle)) != std::string::npos;
+}
+
+bool is_difference_map(const std::string& path) {
+  try {
+    for (const auto& [key, value] : read_image_info(path).metadata)
+      if (key == kDifferenceKey) return true;
+  } catch (const Error&) {
+  }
+  return false;
+}
+
 void write_differences(const ComparedPictures& pictures, const std::string& path) {
   make_folder_of(path);
   if (!has_ending(path, ".png")) return write_difference_exr(pictures, path);
   const ChannelFile& part = pictures.reference.parts.front();
   write_image(path, compare::error_picture(pictures.comparison.flip->map, part.width, part.height), {},
-              {{"trueshade:difference", "FLIP"}}, {PictureValues::display_codes});
+              {{kDifferenceKey, "FLIP"}}, {PictureValues::display_codes});
 }
 
 }  // namespace trueshade

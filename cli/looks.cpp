@@ -231,6 +231,7 @@ void append_lights_of_ours(Scene& scene, double factor) {
   const glm::vec4 clear = scene.clear;
   const size_t before = scene.lights.size();
   add_lights_of_ours(scene);
+  if (scene.camera_of_ours) turn_lamps(scene, turn_of_side(scene));
   scene.clear = clear;
   scale_lights(std::span(scene.lights).subspan(before), factor);
 }
@@ -478,7 +479,8 @@ Looks bring_to_looks(const PipelineOptions& options, const Pipeline& pipeline, C
 DisplayTransform display_of(const Looks& looks, const Pipeline& pipeline, const Scene& scene) {
   const FpScope fp;
   DisplayTransform display;
-  display.divides_by_alpha = pipeline.post.samples > 1 && pipeline.view == ImageView::lit && scene.clear.a == 0.0f;
+  display.divides_by_alpha =
+      pipeline.post.samples > 1 && pipeline.view == ImageView::lit && scene.clear == glm::vec4(0.0f);
   if (looks.exposure)
     if (const auto stops = stops_of(*looks.exposure)) display.scale = exp2_of(*stops);
   if (looks.tone_map) display.curve = curve_of(*looks.tone_map);

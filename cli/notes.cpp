@@ -12,6 +12,7 @@
 #include "scenes/files/content/faults.h"
 #include "scenes/pipeline/light_mesh.h"
 #include "scenes/pipeline/presets.h"
+#include "scenes/pipeline/shipped_models.h"
 #include "scenes/timeline_end.h"
 #include "shading/output/view_image.h"
 #include "shading/program/cut_lights.h"
@@ -168,9 +169,9 @@ std::string no_program_line(const Pipeline& pipeline) {
 }
 
 /// Where nothing moves at another time than 0, or the animation of a file has come to its end before it.
-std::string stands_line(const Scene& scene) {
+std::string stands_line(const Scene& scene, bool may_read_time) {
   const TimelineEnd end = end_of(scene.timeline);
-  if (scene.time != 0.0 && !end.is_endless && end.last == 0.0 && !scene.timeline.stands_at)
+  if (scene.time != 0.0 && !may_read_time && !end.is_endless && end.last == 0.0 && !scene.timeline.stands_at)
     return "Nothing of the scene moves: Every time has one picture";
   if (scene.animations.empty() || end.is_endless || !(end.last > 0.0) || scene.time <= end.last) return {};
   return "The time is after the end of what moves, " + json_number(end.last) + " s: All stands as at its last step";
@@ -190,7 +191,7 @@ Notes notes_of(const Scene& scene, const Pipeline& pipeline) {
        {boxes ? boxes_line(scene, pipeline.view) : std::string(), boxes ? eye_in_boxes_line(scene) : std::string(),
         pipeline.view == ImageView::uv ? uv_line(scene) : std::string(), lost_volumes_line(scene, pipeline),
         by_program ? cut_line(scene, pipeline) : std::string(), stand_in_line(scene, pipeline),
-        no_program_line(pipeline), stands_line(scene)})
+        no_program_line(pipeline), stands_line(scene, by_program && !names_shipped_model(pipeline.light_program.file))})
     if (!line.empty()) notes.lines.push_back(std::move(line));
   return notes;
 }

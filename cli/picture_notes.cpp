@@ -137,13 +137,15 @@ std::string clamp_note(const Pipeline& pipeline, const Image& picture, bool to_p
 }
 
 /// Says so where a screen shows next to nothing of a picture that is not black.
-std::string dim_note(const Pipeline& pipeline, const Image& picture, bool exposed) {
+std::string dim_note(const Pipeline& pipeline, const Frame& frame, bool exposed) {
+  const Image& picture = frame.color;
   constexpr double kDim = 10.0 / 255.0, kDimLight = 0.003;  // the light that sRGB has as 10 of 255
   constexpr int kShownPercent = 1;
   const FormatInfo layout = info(picture.format);
   if (pipeline.view != ImageView::lit || exposed || layout.number_class == NumberClass::integer) return {};
   const bool is_light = layout.srgb || layout.number_class == NumberClass::floating;
   const size_t pixels = size_t(picture.width) * size_t(picture.height);
+  const uint64_t covered = std::max<uint64_t>(frame.stats.covered_pixels, 1);
   const FpScope fp;
   size_t shown = 0;
   std::vector<float> row(3 * size_t(picture.width));
@@ -151,7 +153,7 @@ std::string dim_note(const Pipeline& pipeline, const Image& picture, bool expose
     read_row(picture, y, 3, row.data());
     for (size_t x = 0; x < row.size(); x += 3)
       shown += std::max({row[x], row[x + 1], row[x + 2]}) > float(is_light ? kDimLight : kDim) ? 1 : 0;
-    if (100 * shown > kShownPercent * pixels) return {};
+    if (100 * shown > kShownPercent * std::min<uint64_t>(covered, pixels)) return {};
   }
   if (is_black(picture)) return {};
   return "The picture is nearly black: A screen shows " + std::to_string(pixels - shown) + " of " +
@@ -226,7 +228,7 @@ std::vector<std::string> picture_notes(const Scene& scene, const Pipeline& pipel
   for (std::string note :
        {black_note(scene, pipeline, frame), clamp_note(pipeline, frame.color, to_png, exposed),
         nan_note(pipeline, frame.color), hidden_note(pipeline, frame.color), nearly_empty_note(scene, frame.stats),
-        stretched_note(scene, pipeline), dim_note(pipeline, frame.color, exposed)})
+        stretched_note(scene, pipeline), dim_note(pipeline, frame, exposed)})
     if (!note.empty()) notes.push_back(std::move(note));
   return notes;
 }

@@ -66,6 +66,7 @@ class FolderComparer {
     const auto start = std::chrono::steady_clock::now();
     PictureRow row;
     row.name = name;
+    for (const std::string& folder : options_.outputs) remove_stale(folder, name);
     try {
       measure(in_reference, in_test, row);
     } catch (const Error& error) {
@@ -137,11 +138,18 @@ class FolderComparer {
     return compared_pictures(reference(row), test(row), options_, mask_);
   }
 
-  /// Maps and pages of an earlier run, when the picture did not pass.
-  void remove_stale(const std::string& path) const {
-    std::error_code ignored;
-    for (const std::string& file : {path + kMapEnding, path + kPageEnding})
-      if (fs::is_regular_file(fs::symlink_status(file, ignored))) fs::remove(file, ignored);
+  /// The map and the page that an earlier run made of the picture in a folder of -o; no file of others, and none that a
+  /// link leads to.
+  void remove_stale(const std::string& folder, const std::string& name) const {
+    std::error_code unknown;
+    const fs::path path = fs::path(folder) / name;
+    if (fs::weakly_canonical(path.parent_path(), unknown) !=
+        fs::weakly_canonical(folder, unknown) / fs::path(name).parent_path())
+      return;
+    const std::string map = path.string() + kMapEnding, page = path.string() + kPageEnding;
+    if (fs::is_regular_file(fs::symlink_status(map, unknown)) && is_difference_map(map)) fs::remove(map, unknown);
+    if (pages_ && fs::is_regular_file(fs::symlink_status(page, unknown)) && is_comparison_page(page))
+      fs::remove(page, unknown);
   }
 
   void compare_pair(PictureRow& row) {
@@ -161,7 +169,6 @@ class FolderComparer {
     if (c.flip) row.flip_mean = c.flip->mean;
     for (const std::string& folder : options_.outputs) {
       const std::string path = (fs::path(folder) / row.name).string();
-      remove_stale(path);
       if (passes(row)) continue;
       if (c.flip) write_differences(pictures, path + kMapEnding);
       if (pages_) write_text(path + kPageEnding, comparison_page(pictures, command_of(row)));
@@ -228,7 +235,10 @@ std::set<std::string> pictures_in(const std::string& folder, std::set<std::strin
 
 FolderComparison compared_folders(const CompareOptions& options, bool pages, const std::function<void(int, int)>& see) {
   FolderComparison folders{options.reference, options.test, {}, {}, {}};
-  const std::set<std::string> of_reference = pictures_in(options.reference, folders.passed_over),
+  std::error_code unknown;
+  const bool is_first = options.accept && !fs::exists(options.reference, unknown);  // it becomes a folder
+  const std::set<std::string> of_reference = is_first ? std::set<std::string>()
+                                                      : pictures_in(options.reference, folders.passed_over),
                               of_test = pictures_in(options.test, folders.passed_over);
   note_listed(options.reference, of_reference);
   note_listed(options.test, of_test);

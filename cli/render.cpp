@@ -74,7 +74,9 @@ std::string vain_note(const RenderOptions& options, const Pipeline& pipeline) {
     return std::any_of(options.outputs.begin(), options.outputs.end(),
                        [ending](const std::string& path) { return has_ending(path, ending); });
   };
-  const bool is_exposed = options.looks.exposure && options.looks.exposure != "0",
+  Looks exposure;
+  exposure.exposure = options.looks.exposure;
+  const bool is_exposed = options.looks.exposure == "auto" || display_of(exposure, pipeline, {}).scale != 1.0,
              is_shown = ends_in(".png") || ends_in(".html") || options.raw_video;
   const FormatInfo image = info(pipeline.post.active() ? pipeline.post.output : pipeline.target);
   if (is_exposed && !is_shown && !options.outputs.empty())

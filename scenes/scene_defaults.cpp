@@ -156,8 +156,9 @@ SeenAreas areas_from(const Scene& scene, const glm::dvec3& toward) {
 glm::dvec2 turn_of_side(const Scene& scene) {
   constexpr glm::dvec2 kTurns[] = {{0.0, 1.0}, {0.0, -1.0}, {1.0, 0.0}, {-1.0, 0.0}};
   constexpr double kLeastDrawn = 0.1;
+  constexpr uint64_t kMostTriangles = 2'000'000;  // so many are looked at in a moment
   const FpScope fp;
-  if (!scene.photometric) return kTurns[0];
+  if (!scene.photometric || scene.triangle_count() > kMostTriangles) return kTurns[0];
   const SeenAreas front = areas_from(scene, kFromTheFront);
   if (!(front.drawn < kLeastDrawn * front.all)) return kTurns[0];
   return *std::max_element(std::begin(kTurns), std::end(kTurns), [&](const glm::dvec2& a, const glm::dvec2& b) {

@@ -129,6 +129,8 @@ class PlaneUnpacker {
       check_halves(plane);
       if (name == "normal" && !is_stored_normal(plane)) check_signed(plane);
       out_.capture.planes.push_back({name, stored_plane_image(plane)});
+      if (name == "metallic" || name == "roughness")  // an engine's own format
+        out_.capture.decoded.push_back({name, false, {}, {float(0.504 * step_of(*plane.channels[0], 1.0))}, true});
       if (lacks_alpha && info(out_.capture.planes.back().image.format).channels == 4)
         out_.capture.decoded.push_back({name, false, {}, {}, false});
     }

@@ -231,7 +231,7 @@ std::string paragraph(const std::string& text) { return text.empty() ? "" : "<p>
 
 std::string comparison_page(const ComparedPictures& pictures, const std::string& command) {
   const Comparison& c = pictures.comparison;
-  std::string html = page_head("Two pictures, compared") + heading_part("Two pictures, compared") +
+  std::string html = page_head(kComparisonTitle) + heading_part(kComparisonTitle) +
                      "<p class=\"verdict " + (passes(pictures) ? "good" : "bad") +
                      "\">Verdict: " + escaped(verdict_line(pictures)) + ".</p>\n";
   html += "<p class=quiet>reference " + escaped(pictures.reference.path + ": " + about_picture(pictures.reference)) +

@@ -102,7 +102,7 @@ std::unique_ptr<PictureCase> picture_of(const Shown& s, const PlaneFindings& pla
 
 /// Whether a picture's small floats seem to be rounded as the pipeline does not say, which is no fault where the
 /// profile allows either.
-bool rounds_otherwise(const std::vector<Finding>& findings) {
+bool rounds_otherwise(std::span<const Finding> findings) {
   return std::any_of(findings.begin(), findings.end(),
                      [](const Finding& f) { return f.name == "store-nearest" || f.name == "store-truncated"; });
 }
@@ -191,7 +191,9 @@ std::vector<Finding> diagnose(const Scene& scene, const Pipeline& asked, const P
     const bool allows_either = profile.half == HalfStore::either && !profile.exact_planes;
     if (allows_either && info(pipeline.target).small_float() && (!supposed.empty() || rounds_otherwise(findings))) {
       std::vector<Finding> others = findings_under(rounding_otherwise(pipeline));
-      if (supposed.empty() || first_score(others) > first_score(findings)) findings = std::move(others);
+      const bool is_all =
+          supposed.empty() && rounds_otherwise(std::span(findings).first(std::min<size_t>(1, findings.size())));
+      if (is_all || first_score(others) > first_score(findings)) findings = std::move(others);
     }
   }
   if (!lines.empty()) findings = best_of(std::move(lines), std::move(findings), most);

@@ -14,11 +14,12 @@ using programs::Program;
 using programs::ProgramNode;
 using programs::Type;
 
-/// Whether a product has the sum as a factor.
-bool leads_to(const Program& program, NodeId id, NodeId sum) {
+/// Whether a product of few factors has the sum as one.
+bool leads_to(const Program& program, NodeId id, NodeId sum, int depth = kProductDepth) {
   if (id == sum) return true;
   const ProgramNode& node = program.nodes[id];
-  return node.op == Op::f_mul && (leads_to(program, node.operand[0], sum) || leads_to(program, node.operand[1], sum));
+  return node.op == Op::f_mul && depth > 0 &&
+         (leads_to(program, node.operand[0], sum, depth - 1) || leads_to(program, node.operand[1], sum, depth - 1));
 }
 
 }  // namespace

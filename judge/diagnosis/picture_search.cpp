@@ -59,7 +59,8 @@ double parameter_cost(Search search) {
 bool holds_for_programs(const PictureFault& fault, const LightPass& pass) {
   constexpr Search kByLight[] = {Search::missing_light, Search::doubled_light, Search::count, Search::count_at_pixel,
                                  Search::one_light};
-  if (pass.program->defines_finish() && std::find(std::begin(kByLight), std::end(kByLight), fault.search) != std::end(kByLight))
+  if (pass.program->defines_finish() &&
+      std::find(std::begin(kByLight), std::end(kByLight), fault.search) != std::end(kByLight))
     return false;
   LightPass changed = pass;
   if (fault.light != nullptr) fault.light(changed, fault.starts.empty() ? 2.0 : fault.starts.front());

@@ -176,11 +176,11 @@ class EditList {
   std::vector<NodeId> albedo_inputs() const {
     std::vector<NodeId> found;
     for (NodeId id = 0; id < p_.nodes.size(); ++id)
-      if (at(id).op == Op::input && p_.inputs[at(id).bits].name.starts_with("surface.albedo.") &&
-          !p_.inputs[at(id).bits].name.ends_with(".w"))
+      if (at(id).op == Op::input && input_name(id).starts_with("surface.albedo.") && !input_name(id).ends_with(".w"))
         found.push_back(id);
     return found;
   }
+  const std::string& input_name(NodeId id) const { return p_.inputs[at(id).bits].name; }
 
   /// Albedo that is encoded once too often or once too few, by sRGB or by the power of 2.2 that stands for it.
   void of_albedo() {
@@ -205,6 +205,7 @@ class EditList {
   void of_further_factors() {
     if (first().type != Type::f32 || (first().op != Op::f_mul && first().op != Op::f_div && first().op != Op::pow))
       return;
+    if (steps_.size() > kMostSteps) return;
     for (const auto& step : steps_) {
       const Op op = at(step[0]).op;
       if (step.size() != 1 || (op != Op::f_max && op != Op::f_min && op != Op::f_mul)) continue;
@@ -215,8 +216,11 @@ class EditList {
       if (op != Op::f_mul)
         add(ProgramChange::over_other, "lacks " + value + " as a factor").others.assign(nodes_.size(), step[0]);
     }
-    if (const std::vector<NodeId> albedo = albedo_inputs(); nodes_.size() == 3 && albedo.size() == 3)
-      add(ProgramChange::times_other, "has albedo as a factor that it should not have").others = albedo;
+    std::vector<NodeId> albedo = albedo_inputs();
+    if (nodes_.size() != 3 || albedo.size() != 3 || *std::max_element(albedo.begin(), albedo.end()) >= nodes_[0])
+      return;
+    std::sort(albedo.begin(), albedo.end(), [this](NodeId a, NodeId b) { return input_name(a) < input_name(b); });
+    add(ProgramChange::times_other, "has albedo as a factor that it should not have").others = albedo;
   }
 
   /// A sum with factors, of which one is of one term alone, as where a highlight is not multiplied by N.L.
@@ -241,12 +245,12 @@ class EditList {
         }
     }
   }
-  /// The sum that a product has as a factor.
-  NodeId sum_in(NodeId id) const {
+  /// The sum that a product of few factors has as one.
+  NodeId sum_in(NodeId id, int depth = kProductDepth) const {
     if (at(id).op == Op::f_add) return id;
-    if (at(id).op != Op::f_mul) return kNoNode;
-    const NodeId left = sum_in(at(id).operand[0]);
-    return left != kNoNode ? left : sum_in(at(id).operand[1]);
+    if (at(id).op != Op::f_mul || depth == 0) return kNoNode;
+    const NodeId left = sum_in(at(id).operand[0], depth - 1);
+    return left != kNoNode ? left : sum_in(at(id).operand[1], depth - 1);
   }
 
   /// x (1 - a) + y a

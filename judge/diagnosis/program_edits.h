@@ -27,6 +27,9 @@ enum class ProgramChange : uint8_t {
   srgb_decoded,  ///< the light of the value as an sRGB one; with a `number` its power
 };
 
+/// How many products behind each other factor_of_one_term looks through: both operands of each are tried.
+inline constexpr int kProductDepth = 6;
+
 /// One change of all nodes that a step of the source became: of the components of a vector, say.
 struct ProgramEdit {
   ProgramChange change = ProgramChange::other_operation;

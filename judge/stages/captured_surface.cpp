@@ -21,13 +21,16 @@ bool emits(const Scene& scene, const LightModel& model) {
          });
 }
 
-/// Whether metallic and roughness are planes of their own, which light programs read. Error(bad_input): one of them is.
-bool has_metals(const Capture& capture) {
-  const bool metallic = capture.plane("metallic") != nullptr, roughness = capture.plane("roughness") != nullptr;
-  if (metallic != roughness)
-    throw Error(ErrorKind::bad_input, capture.name + ": plane " + (metallic ? "roughness" : "metallic"), "is missing",
-                "give both, or both as the plane specular");
-  return metallic;
+/// Whether metallic and roughness are planes of their own, which light programs read: those of them that the program
+/// does. Error(bad_input): one of two is there.
+bool has_metals(const Capture& capture, const LightProgram& given) {
+  if (capture.plane("metallic") == nullptr && capture.plane("roughness") == nullptr) return false;
+  for (const programs::ProgramInput& input : programs::kept_program(given.file, given.text)->inputs)
+    for (const std::string name : {"metallic", "roughness"})
+      if (input.name == "surface." + name && capture.plane(name) == nullptr)
+        throw Error(ErrorKind::bad_input, capture.name + ": plane " + name, "is missing",
+                    "give all that the light program reads, or the plane specular, which holds both");
+  return true;
 }
 
 }  // namespace
@@ -40,7 +43,7 @@ CapturedSurface::CapturedSurface(const Scene& scene, const Pipeline& pipeline, c
       albedo_(required(capture, "albedo")),
       object_(plane_of(capture, pipeline, "id.object")),
       specular_(reads_specular_plane(pipeline.light_model) &&
-                        !(pipeline.light_model.keeps_metals && has_metals(capture))
+                        !(pipeline.light_model.keeps_metals && has_metals(capture, pipeline.light_program))
                     ? required(capture, "specular")
                     : PlaneView{}),
       emission_(emits(scene, pipeline.light_model) ? required(capture, "emission") : PlaneView{}),

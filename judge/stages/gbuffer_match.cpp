@@ -138,15 +138,16 @@ void GBufferJudge::judge_shininess(const Range& range, double stored, uint32_t p
   if (stored != std::nearbyint(stored)) m.note("specular", 3, {range.value, range.low, range.high}, stored, 1);
 }
 
-/// A plane that no pipeline has a format for: an engine may hold it in codes of 8 bits, and hand it out as floats.
+/// A plane that no pipeline has a format for: an engine may hold it in codes of 8 bits, and hand it out as floats; or
+/// in coarser codes, which its file tells.
 template <typename Found>
 void GBufferJudge::judge_own_plane(const PlaneView& view, const char* name, const Range& range, int x, int y_top,
                                    Found& m) const {
-  constexpr double kHalfCode = 0.504 / 255;
+  const double half_code = std::max(0.504 / 255, view.packing_error(x, y_top));
   const double largest = view.unorm() ? double(view.layout.largest_code(0)) : 1.0,
                stored = view.stored(x, y_top, 0) / largest;
-  if (stored >= range.low - kHalfCode && stored <= range.high + kHalfCode) return;
-  m.note(name, 0, {range.value, range.low - kHalfCode, range.high + kHalfCode}, stored, 1);
+  if (stored >= range.low - half_code && stored <= range.high + half_code) return;
+  m.note(name, 0, {range.value, range.low - half_code, range.high + half_code}, stored, 1);
 }
 
 template <typename Found>

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "scenes/json/json_value.h"
+#include "scenes/pipeline/program_inputs.h"
 
 namespace trueshade {
 namespace {
@@ -68,6 +69,13 @@ bool is_in_comment(std::string_view text, size_t place) {
   return false;
 }
 
+/// Whether a declaration is of integers or bools.
+bool is_whole(std::string_view declaration) {
+  skip_blanks(declaration);
+  return declaration.starts_with('i') || declaration.starts_with('u') || declaration.starts_with('b');
+}
+bool holds_whole(float value) { return value == std::floor(value) && std::fabs(value) <= kLargestWholeParameter; }
+
 /// What stands behind the brace of the block of parameters; empty where there is no such block.
 std::string_view block_of(std::string_view text) {
   constexpr std::string_view kUniform = "uniform";
@@ -105,7 +113,8 @@ std::vector<DeclaredParameter> declared_parameters(std::string_view text) {
     const size_t comment = std::min(line.find("//"), line.size());
     std::string_view members = line.substr(0, comment);
     ends = members.find('}') != std::string_view::npos;
-    const std::optional<ParameterRange> range = range_in(line.substr(std::min(comment + 2, line.size())));
+    std::optional<ParameterRange> range = range_in(line.substr(std::min(comment + 2, line.size())));
+    if (range && range->usual && is_whole(members) && !holds_whole(*range->usual)) range->usual.reset();
     while (!members.empty()) {
       const std::string_view one = members.substr(0, members.find_first_of(",;}"));
       members.remove_prefix(std::min(one.size() + 1, members.size()));

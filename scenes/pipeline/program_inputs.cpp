@@ -183,7 +183,8 @@ std::optional<float> parameter_value(std::string_view input, const LightProgram&
   }
   if (!input.starts_with(kParameterBlock)) return std::nullopt;
   const std::vector<DeclaredParameter> declared = declared_parameters(program.text);
-  const ParameterRange* const range = range_of(declared, input.substr(std::string_view(kParameterBlock).size()));
+  const std::string whole = without_component(std::string(input));
+  const ParameterRange* const range = range_of(declared, whole.substr(std::string_view(kParameterBlock).size()));
   return range != nullptr ? range->usual : std::nullopt;
 }
 

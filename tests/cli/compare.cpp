@@ -544,6 +544,9 @@ TEST_CASE("compare --accept makes the folder of references that is not there yet
   CHECK(content_of(folder.path("new/golden/extra.exr")) == content_of(folder.path("test/extra.exr")));
   CHECK(run_compare(folder, {"new/golden", "test"}).exit_code == 0);
   CHECK(run_compare(folder, {"absent", "test"}).exit_code == 5);
+  std::filesystem::create_directories(folder.path("empty"));
+  CHECK(run_compare(folder, {"absent", "empty", "--accept"}).exit_code == 3);
+  CHECK_FALSE(std::filesystem::exists(folder.path("absent")));
 }
 
 TEST_CASE("pictures that do not fit together meet no criterion") {
@@ -650,6 +653,27 @@ TEST_CASE("a picture that passes by now leaves no map and no page of an earlier 
   CHECK_FALSE(std::filesystem::exists(map));
   CHECK_FALSE(std::filesystem::exists(page));
   CHECK(content_of(folder.path("maps/b/mine.png")) == "mine");
+
+  // What others have under such names stays, and so does what a link leads to.
+  folder.write("maps/b/differs.exr.flip.png", "mine");
+  folder.write("maps/b/differs.exr.html", "mine");
+  folder.write("elsewhere/same.exr.html", "mine");
+  std::filesystem::remove_all(folder.path("maps/a"));
+  std::filesystem::create_directory_symlink("../elsewhere", folder.path("maps/a"));
+  CHECK(run() == 1);
+  CHECK(content_of(map) == "mine");
+  CHECK(content_of(page) == "mine");
+  CHECK(content_of(folder.path("elsewhere/same.exr.html")) == "mine");
+  std::filesystem::remove(folder.path("maps/a"));
+
+  // A picture that is gone by now leaves its map no more than one that passes.
+  std::filesystem::remove(map), std::filesystem::remove(page);
+  write_floats(folder.path("test/b/differs.exr"), even_plane(8, 6, 3, 0.5), kRgb);
+  CHECK(run() == 1);
+  REQUIRE(std::filesystem::exists(map));
+  std::filesystem::remove(folder.path("test/b/differs.exr"));
+  CHECK(run() == 1);
+  CHECK_FALSE(std::filesystem::exists(map));
 }
 
 TEST_CASE("compare --criteria: the first pattern that fits a name has a picture's criteria") {
@@ -679,6 +703,7 @@ TEST_CASE("compare --criteria: the first pattern that fits a name has a picture'
   CHECK(passing(outcomes("")).empty());
   CHECK(passing(outcomes("# noise\n\nnoise/*  --max-difference 0.3\r\n")) == Names{"noise/a b.exr", "noise/c.exr"});
   CHECK(passing(outcomes("\"noise/a b.exr\" --pixels 48 --delta 1/8")) == Names{"noise/a b.exr"});
+  CHECK(passing(outcomes("\xef\xbb\xbfnoise/* --max-difference 0.3\n")) == Names{"noise/a b.exr", "noise/c.exr"});
   const auto first = outcomes("noise/c.exr --max-difference 0.2\n*.exr --max-difference 1/4\nabsent* --psnr 30\n");
   CHECK(passing(first) == Names{"flat.exr", "noise/a b.exr"});
   CHECK(first.at("unused_criteria") == nlohmann::json::array({"absent*"}));
@@ -698,6 +723,7 @@ TEST_CASE("compare --criteria: the first pattern that fits a name has a picture'
   refused("a b\n", "line 1: command line: 'b' is one argument too many");
   refused("a --delta 1\n", "line 1: --delta: it is what --pixels and --window let pass");
   refused("a -o b\n", "line 1: -o: there is no such option");
+  refused("\"a --psnr 3\n", "line 1: quote: it is not closed");
   check_refused(run_compare(folder, {"ref", "test", "--criteria", "absent.txt"}), 5, "absent.txt");
   check_refused(run_compare(folder, {"ref/flat.exr", "test/flat.exr", "--criteria", "criteria.txt"}), 2, "--criteria");
 }

@@ -41,6 +41,13 @@ float outside;         // 0 to 1
   CHECK_FALSE(steps.holds(0.999f));
   CHECK(steps.usual == 4.0f);
   CHECK_FALSE(range_of(declared, "gain")->usual);
+  const auto usual = [](const char* member) {
+    return range_of(declared_parameters("uniform Parameters {\n" + std::string(member) + "\n};"), "a")->usual;
+  };
+  CHECK(usual("vec3 a;  // 0 to 1, usually 0.5") == 0.5f);
+  CHECK(usual("int a;  // from 1, usually 3") == 3.0f);
+  CHECK_FALSE(usual("int a;  // from 1, usually 2.5"));
+  CHECK_FALSE(usual("uint a;  // from 1, usually 1e30"));
   CHECK_FALSE(range_of(declared_parameters("uniform Parameters { float a; };  // 0 to 1, usually 2\n"), "a")->usual);
   CHECK_FALSE(steps.holds(std::numeric_limits<float>::quiet_NaN()));
   const auto one_line = declared_parameters("uniform Parameters { float a, b; };  // 0 to 1\n");
