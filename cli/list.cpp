@@ -93,6 +93,7 @@ std::string text_of(const std::vector<Section>& list) {
 
 struct ParameterFacts {
   std::string name, type, range;  ///< type: of GLSL; range: empty where the program states none
+  std::optional<float> usual;
 };
 
 /// What a user of a light program must know of it.
@@ -134,8 +135,8 @@ ProgramFacts facts_of(const std::string& name) {
       ++next;
     const std::string own = whole.substr(kParameterBlock.size());
     const ParameterRange* const range = range_of(declared, own);
-    facts.parameters.push_back(
-        {own, glsl_type(outline.parameters[i].type, next - i), range ? range->text() : std::string()});
+    facts.parameters.push_back({own, glsl_type(outline.parameters[i].type, next - i),
+                                range ? range->text() : std::string(), range ? range->usual : std::nullopt});
   }
   for (const std::string& input : outline.inputs)
     if (const std::string field = without_component(input); !field.starts_with(kParameterBlock) &&
@@ -159,6 +160,7 @@ std::string json_of(const ProgramFacts& facts) {
     JsonObject one;
     one.put("name", parameter.name).put("type", parameter.type);
     if (!parameter.range.empty()) one.put("range", parameter.range);
+    if (parameter.usual) one.put("usual", double(*parameter.usual));
     parameters.add_raw(one.text());
   }
   for (const std::string& field : facts.fields) reads.add_raw(json_string(field));
@@ -172,7 +174,8 @@ std::string text_of(const ProgramFacts& facts) {
   if (!facts.about.empty()) what.heading += ": " + facts.about;
   Section parameters{"", "Parameters (--light-parameter NAME=VALUE)", {}};
   for (const ParameterFacts& one : facts.parameters)
-    parameters.entries.emplace_back(one.name, one.type + (one.range.empty() ? "" : ", " + one.range));
+    parameters.entries.emplace_back(one.name, one.type + (one.range.empty() ? "" : ", " + one.range) +
+                                                  (one.usual ? ", usually " + json_number(double(*one.usual)) : ""));
   if (facts.parameters.empty()) parameters.entries = {{"none", ""}};
   Section reads{"", "Reads", {}}, defines{"", "Defines", {}};
   for (const std::string& field : facts.fields) reads.entries.emplace_back(field, "");

@@ -99,9 +99,7 @@ std::string_view name_in(std::string_view declaration) {
 
 std::string ParameterRange::text() const {
   const bool open = std::isinf(most);
-  const std::string ends =
-      open ? "from " + json::number_text(least) : json::number_text(least) + " to " + json::number_text(most);
-  return usual ? ends + ", usually " + json::number_text(double(*usual)) : ends;
+  return open ? "from " + json::number_text(least) : json::number_text(least) + " to " + json::number_text(most);
 }
 
 std::vector<DeclaredParameter> declared_parameters(std::string_view text) {

@@ -11,7 +11,7 @@ struct ParameterRange {
   double least, most;                  ///< most may be infinite
   std::optional<float> usual{};        ///< what it is where nothing gives it
   bool holds(float value) const { return value >= float(least) && value <= float(most); }
-  std::string text() const;  ///< "0 to 1", "from 1, usually 4"
+  std::string text() const;  ///< "0 to 1", "from 1"
 };
 
 /// A member of a program's block Parameters.

@@ -407,7 +407,7 @@ TEST_CASE("Smooth edges of a model before no background have the model's own col
   // Its values are no target's, and so no judge takes them for one.
   pictures.picture("flat.gltf", {"--background", "none"}, "cut.png");
   pictures.write_other("other.png", "cut.png");
-  CHECK(has(pictures.run({"compare", "cut.png", "other.png"}).out, "--background none has changed them"));
+  CHECK(has(pictures.run({"compare", "cut.png", "other.png"}).out, "a transparent background has changed them"));
 }
 
 TEST_CASE("A model of PLY stands on a ground, and before a background that is asked for it does not") {

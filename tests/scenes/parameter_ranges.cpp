@@ -30,7 +30,7 @@ float outside;         // 0 to 1
   CHECK(shown("gain") == "0 to 20");
   CHECK(shown("tint") == "0.25 to 1");
   CHECK(shown("shade") == "0.25 to 1");
-  CHECK(shown("steps") == "from 1, usually 4");
+  CHECK(shown("steps") == "from 1");
   CHECK(shown("free") == "none");
   CHECK(shown("size") == "none");
   CHECK(shown("cold") == "-2 to -1.5");
