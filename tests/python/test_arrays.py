@@ -306,7 +306,7 @@ def test_faults_are_passed_over_and_paths_trusted_where_that_is_asked_for(tmp_pa
     one_clear_error(lambda: trueshade.load_scene(far, lenient=False), "trust_paths")
     assert trueshade.load_scene(far, trust_paths=True).notes == []
     notes = trueshade.load_scene(lost, lenient=True).notes
-    assert [note.split(":")[0] for note in notes[-1:]] == ["As lenient=True asks"]
+    assert [note.split(":")[0] for note in notes[-1:]] == ["As lenient=True asks, which makes this no reference"]
 
 
 def test_wrong_names_and_numbers_are_one_clear_error():
