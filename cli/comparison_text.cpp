@@ -174,12 +174,6 @@ std::string flip_json(const compare::FlipResult& flip) {
   return json.text();
 }
 
-std::string strings_json(const std::vector<std::string>& lines) {
-  JsonArray array;
-  for (const std::string& line : lines) array.add_raw(json_string(line));
-  return array.text();
-}
-
 }  // namespace
 
 std::string about_picture(const PictureFile& picture) {

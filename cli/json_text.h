@@ -42,4 +42,12 @@ class JsonArray {
   std::string values_;
 };
 
+/// An array of texts.
+template <typename Strings>
+std::string strings_json(const Strings& strings) {
+  JsonArray array;
+  for (const std::string& text : strings) array.add_raw(json_string(text));
+  return array.text();
+}
+
 }  // namespace trueshade

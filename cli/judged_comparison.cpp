@@ -135,8 +135,10 @@ class SceneJudge {
     } catch (const Error&) {
       throw not_judged("its looks are none that this version knows");
     }
-    if (display_of(options.looks, v_.pipeline, scene_) != DisplayTransform() && !has_ending(pictures_.reference.path, ".exr"))
-      throw not_judged("its values are not the target's: --exposure, --tone-map or a transparent background has changed them");
+    if (display_of(options.looks, v_.pipeline, scene_) != DisplayTransform() &&
+        !has_ending(pictures_.reference.path, ".exr"))
+      throw not_judged(
+          "its values are not the target's: --exposure, --tone-map or a transparent background has changed them");
   }
 
   void find_capture() {

@@ -86,8 +86,8 @@ OptionRow& add_choice(CommandTable& table, const char* names, const char* value_
   return of_names(add_value(table, names, value_name, text, std::move(help)), choices);
 }
 
-/// Gives rows of a table what words of a command line say. Error(usage) as for the command itself, and for a word that is
-/// no option of the table.
+/// Gives rows of a table what words of a command line say. Error(usage) as for the command itself, and for a word that
+/// is no option of the table.
 void take_options(const CommandTable& table, std::span<const std::string> words);
 
 /// Its rows are in --help-limits and in man pages, and not in --help, where they would be a third of all rows.

@@ -49,7 +49,7 @@ std::set<std::string> pictures_in(const std::string& folder, std::set<std::strin
 /// A line of the file of --criteria.
 struct NamedCriteria {
   std::string pattern;     ///< as a shell has them; * is any text, slashes too
-  CompareOptions options;  ///< those of the command, with the line's criteria, and its mask if it has one, in place of theirs
+  CompareOptions options;  ///< the command's, with the line's criteria, and its mask if it has one, in their place
 };
 
 /// The lines of the command's --criteria; none without it. Error(bad_input) naming the line that means nothing.

@@ -32,13 +32,6 @@ std::string row_reason(const PictureRow& row) {
   return row.not_accepted.empty() ? row.reason : row.reason + "; not accepted: " + row.not_accepted;
 }
 
-template <typename Strings>
-std::string strings_json(const Strings& strings) {
-  JsonArray array;
-  for (const std::string& text : strings) array.add_raw(json_string(text));
-  return array.text();
-}
-
 }  // namespace
 
 std::string_view name_of(RowState state) {

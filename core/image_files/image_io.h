@@ -35,8 +35,8 @@ inline constexpr std::string_view kToneCurveNames[] = {"clip", "filmic"};
 struct DisplayTransform {
   double scale = 1.0;  ///< of the light, before the curve; above 0
   ToneCurve curve = ToneCurve::clip;
-  /// Colours have been multiplied by alpha, as those of averaged samples over nothing: they are divided by it, for files
-  /// whose readers multiply. Where alpha is 0 they stay.
+  /// Colours have been multiplied by alpha, as those of averaged samples over nothing: they are divided by it, for
+  /// files whose readers multiply. Where alpha is 0 they stay.
   bool divides_by_alpha = false;
   bool operator==(const DisplayTransform&) const = default;
 };

@@ -666,7 +666,7 @@ TEST_CASE("a picture that passes by now leaves no map and no page of an earlier 
   CHECK(content_of(folder.path("elsewhere/same.exr.html")) == "mine");
   std::filesystem::remove(folder.path("maps/a"));
 
-  // A picture that is gone by now leaves its map no more than one that passes.
+  // The map of a picture whose test is gone is removed too.
   std::filesystem::remove(map), std::filesystem::remove(page);
   write_floats(folder.path("test/b/differs.exr"), even_plane(8, 6, 3, 0.5), kRgb);
   CHECK(run() == 1);

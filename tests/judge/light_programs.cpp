@@ -255,8 +255,9 @@ struct Slip {
   const char *right, *wrong;
 };
 
-/// What another engine does on purpose: a highlight times the cosine of its light, half of L + V, albedo as a screen
-/// has it.
+/// Formulas that other engines have on purpose: a highlight is multiplied by N.L once more or not at all, L + V is
+/// halved and not normalized, albedo is sRGB-encoded, a highlight has albedo as a factor, metals reflect as if they
+/// were none.
 constexpr Slip kHabits[] = {
     {"ggx_of_docs", "h = normalize(to + eye)", "h = (to + eye) * 0.5"},
     {"ggx_of_docs", "mirror = f * (a2", "mirror = f * (nl * a2"},
