@@ -8,6 +8,7 @@
 #include "cli/scene_facts.h"
 #include "core/printable_text.h"
 #include "scenes/files/content/faults.h"
+#include "scenes/scene_defaults.h"
 #include "scenes/trig.h"
 
 namespace trueshade {
@@ -71,7 +72,9 @@ std::string named(const std::string& name, const std::string& about) {
 /// The scene's own camera, where it has no list of them.
 std::string own_camera_text(const Scene& scene) {
   const Camera& own = scene.camera;
-  if (scene.camera_of_ours) return "made to see all, because the file has none";
+  if (scene.camera_of_ours)
+    return is_seen_from_inside(scene) ? "made to stand inside a room, because the file has none"
+                                      : "made to see all, because the file has none";
   if (own.clip_from_world) return "a matrix";
   return "perspective, " + degrees_text(double(own.fov_x_rad.value_or(own.fov_y_rad))) +
          (own.fov_x_rad ? " degrees across" : " degrees");

@@ -110,7 +110,8 @@ ChangedCamera::ChangedCamera(const Scene& scene, const CameraChanges& changes, d
       lamps_ = lamps_for(scene, up_, sine_and_cosine(changes.orbit->azimuth_deg));
     changes_.target.reset();  // it is there
   } else if (scene.camera_of_ours && (aspect != 1.0 || changes.fov_y_deg)) {
-    const float fov = changes.fov_y_deg ? float(radians(*changes.fov_y_deg)) : scene.camera.fov_y_rad;
+    std::optional<float> fov;
+    if (changes.fov_y_deg) fov = float(radians(*changes.fov_y_deg));
     whole_ = camera_seeing(scene, aspect, fov);
   } else if (is_matrix && changes.eye && changes.target) {
     whole_ = lens_of(scene, changes);

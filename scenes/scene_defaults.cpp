@@ -7,7 +7,9 @@
 #include <span>
 
 #include "core/fp_env.h"
+#include "scenes/faces.h"
 #include "scenes/lights_of_ours.h"
+#include "scenes/room.h"
 #include "scenes/trig.h"
 
 namespace trueshade {
@@ -132,22 +134,11 @@ struct SeenAreas {
 
 SeenAreas areas_from(const Scene& scene, const glm::dvec3& toward) {
   SeenAreas areas;
-  for (const Instance& instance : without_ground(scene)) {
-    const Mesh& mesh = scene.meshes[instance.mesh];
-    const bool has_backs = scene.materials[instance.material].double_sided;
-    const auto corner = [&](size_t i) {
-      glm::dvec3 at(0.0);
-      for (int k = 0; k < 3; ++k)
-        at += glm::dvec3(instance.world_from_object[k]) * double(mesh.position[size_t(k)][mesh.indices[i]]);
-      return at;
-    };
-    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-      const glm::dvec3 a = corner(i);
-      const double seen = dot(cross(corner(i + 1) - a, corner(i + 2) - a), toward) * (instance.mirrored ? -1.0 : 1.0);
-      areas.all += std::fabs(seen);
-      areas.drawn += has_backs ? std::fabs(seen) : std::max(seen, 0.0);
-    }
-  }
+  for_each_face(scene, without_ground(scene), [&](const Face& face) {
+    const double seen = dot(face.front, toward);
+    areas.all += std::fabs(seen);
+    areas.drawn += scene.materials[face.material].double_sided ? std::fabs(seen) : std::max(seen, 0.0);
+  });
   return areas;
 }
 
@@ -201,14 +192,18 @@ Framing framing_of(const Scene& scene, const SeenFrom& view) {
   return framing;
 }
 
-Camera camera_seeing(const Scene& scene, double aspect, float fov_y_rad) {
+Camera camera_seeing(const Scene& scene, double aspect, std::optional<float> fov_y_rad) {
+  constexpr float kFovOutside = 0.5f, kFovInside = 1.1f;
   const FpScope fp;
-  Camera camera;
-  camera.fov_y_rad = fov_y_rad;
   SeenFrom view;
   view.toward = unit(turned(kFromTheFront, turn_of_side(scene)));
+  if (const auto inside =
+          camera_in_room(scene, bounds_without_ground(scene), view.toward, fov_y_rad.value_or(kFovInside)))
+    return *inside;
+  Camera camera;
+  camera.fov_y_rad = fov_y_rad.value_or(kFovOutside);
   view.right = unit(cross(glm::dvec3(0.0, 1.0, 0.0), view.toward)), view.up = cross(view.toward, view.right);
-  const double slope = tangent(0.5 * double(fov_y_rad));
+  const double slope = tangent(0.5 * double(camera.fov_y_rad));
   view.slope = {slope * aspect, slope};
   const Framing framing = framing_of(scene, view);
   camera.eye = glm::vec3(framing.target + view.toward * framing.distance);
@@ -217,6 +212,20 @@ Camera camera_seeing(const Scene& scene, double aspect, float fov_y_rad) {
   camera.far = float(framing.distance + 4.0 * framing.bounds.radius);
   if (scene.ground_of_ours) see_ground(camera, framing.bounds);
   return camera;
+}
+
+void add_camera_of_ours(Scene& scene) {
+  scene.camera = camera_seeing(scene);
+  scene.camera_of_ours = true;
+  if (is_seen_from_inside(scene))
+    scene.notes.push_back("The model is a room, so it is seen from inside (--orbit 25,20 sees it from outside)");
+}
+
+bool is_seen_from_inside(const Scene& scene) {
+  if (!scene.camera_of_ours) return false;
+  const Bounds bounds = bounds_without_ground(scene);
+  const glm::dvec3 half = bounds.centre - bounds.least, off = glm::dvec3(scene.camera.eye) - bounds.centre;
+  return std::fabs(off.x) < half.x && std::fabs(off.y) < half.y && std::fabs(off.z) < half.z;
 }
 
 }  // namespace trueshade

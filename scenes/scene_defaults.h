@@ -35,12 +35,19 @@ struct Framing {
 Framing framing_of(const Scene& scene, const SeenFrom& view);
 
 /// How far the side that camera_seeing() looks from is turned from the front, +z, to the right: the sine and the cosine
-/// of the angle. (0, 1) but for a glTF model that shows hardly anything but backs there, which are not drawn: then it is
-/// the side, of the front, the back and both others, where most fronts are seen.
+/// of the angle. (0, 1) but for a glTF model that shows hardly anything but backs there, which are not drawn: then it
+/// is the side, of the front, the back and both others, where most fronts are seen.
 glm::dvec2 turn_of_side(const Scene& scene);
 
-/// A camera above and to the right of the front, or of the side of turn_of_side(), that sees all that is drawn: it fills 85 % of the width or of the
-/// height of a picture of this aspect, width / height, and is in the middle. `fov_y_rad`: full vertical angle.
-Camera camera_seeing(const Scene& scene, double aspect = 1.0, float fov_y_rad = 0.5f);
+/// A camera above and to the right of the front, or of the side of turn_of_side(), that sees all that is drawn: it
+/// fills 85 % of the width or of the height of a picture of this aspect, width / height, and is in the middle. A model
+/// that is a room is seen from inside (scenes/room.h). `fov_y_rad`: full vertical angle; of ours 0.5, and 1.1 in a
+/// room.
+Camera camera_seeing(const Scene& scene, double aspect = 1.0, std::optional<float> fov_y_rad = std::nullopt);
+
+/// Gives a scene that has no camera the one of camera_seeing() for square pictures; a note tells of a room.
+void add_camera_of_ours(Scene& scene);
+/// Whether the camera is ours and stands in a room.
+bool is_seen_from_inside(const Scene& scene);
 
 }  // namespace trueshade

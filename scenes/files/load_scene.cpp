@@ -27,11 +27,10 @@ Scene scene_of(Mesh mesh) {
 
 /// Geometry alone: seen whole, under lights of ours, on a ground.
 Scene shown(Scene scene) {
-  scene.camera = camera_seeing(scene);
-  scene.camera_of_ours = true;
+  scene.is_model = true;
+  add_camera_of_ours(scene);
   add_lights_of_ours(scene);
   add_ground(scene);
-  scene.is_model = true;
   return scene;
 }
 

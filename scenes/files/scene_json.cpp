@@ -124,7 +124,7 @@ Scene scene_from_json(std::string_view text, const std::string& path, const Scen
     read_camera(*camera, scene);
   }
   set_time(scene, 0.0);
-  if (!camera && !reference) scene.camera = camera_seeing(scene), scene.camera_of_ours = true;
+  if (!camera && !reference) add_camera_of_ours(scene);
   return scene;
 }
 

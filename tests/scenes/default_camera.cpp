@@ -104,6 +104,101 @@ TEST_CASE("A glTF model that turns its backs to the front is seen from where its
   CHECK(scene.lights[0].position.z * key.z < 0.0f);
 }
 
+namespace {
+
+enum class Fronts : uint8_t { outside, inside };
+
+/// Appends a box, four corners a side, whose faces are drawn from both sides.
+void add_box(Scene& scene, const glm::vec3& centre, const glm::vec3& half, Fronts fronts) {
+  Mesh mesh;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const float side : {-1.0f, 1.0f}) {
+      const uint32_t first = uint32_t(mesh.vertex_count());
+      for (const auto& [a, b] : {std::array{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+        glm::vec3 p, normal(0.0f);
+        p[axis] = side, p[(axis + 1) % 3] = float(a), p[(axis + 2) % 3] = float(b);
+        normal[axis] = fronts == Fronts::outside ? side : -side;
+        for (int k = 0; k < 3; ++k) {
+          mesh.position[size_t(k)].push_back(centre[k] + half[k] * p[k]);
+          mesh.normal[size_t(k)].push_back(normal[k]);
+        }
+      }
+      // Counter-clockwise from +axis: that is the front of a box's face there, and the back of the opposite one.
+      const bool turns = (side > 0.0f) == (fronts == Fronts::outside);
+      for (const uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + (turns ? i : 3u - i));
+    }
+  scene.meshes.push_back(std::move(mesh));
+  Instance instance;
+  instance.mesh = uint32_t(scene.meshes.size() - 1);
+  instance.material = uint32_t(scene.materials.size() - 1);
+  scene.instances.push_back(instance);
+}
+
+Scene model() {
+  Scene scene;
+  scene.is_model = true;
+  scene.materials.emplace_back();
+  scene.materials[0].double_sided = true;
+  return scene;
+}
+
+constexpr glm::vec3 kRoom(4, 1, 3);  // half of the walls' box
+
+/// Whether the eye that a scene gets is between the walls of a room, as its note says.
+bool stands_in_room(Scene scene) {
+  add_camera_of_ours(scene);
+  const glm::vec3 eye = scene.camera.eye;
+  const bool inside = std::fabs(eye.x) < kRoom.x && std::fabs(eye.y) < kRoom.y && std::fabs(eye.z) < kRoom.z;
+  CHECK(scene.notes.size() == (inside ? 1 : 0));
+  return inside;
+}
+
+}  // namespace
+
+TEST_CASE("A room is seen from inside, where its walls would hide what stands in it") {
+  Scene scene = model();
+  add_box(scene, glm::vec3(0), kRoom, Fronts::inside);
+  CHECK_FALSE(stands_in_room(scene));  // it may be a box whose faces are turned
+  add_box(scene, {-1, -0.6f, 0}, glm::vec3(0.4f), Fronts::outside);
+  REQUIRE(stands_in_room(scene));
+  const Camera camera = camera_seeing(scene);
+  CHECK(camera.near < 0.05f);
+  CHECK(camera.far > 10.0f);
+  CHECK(camera.fov_y_rad == 1.1f);
+  CHECK(camera_seeing(scene, 2.0, 0.7f).fov_y_rad == 0.7f);
+  // A thing where the eye would stand: another place is found.
+  add_box(scene, {3.4f, 0, 2.5f}, {0.5f, 0.9f, 0.4f}, Fronts::outside);
+  CHECK(stands_in_room(scene));
+  CHECK(camera_seeing(scene).eye.x < camera.eye.x - 0.1f);
+  // One whose walls have no backs shows what stands in it from outside.
+  scene.photometric = true;
+  scene.materials[0].double_sided = false;
+  CHECK_FALSE(stands_in_room(scene));
+  // A scene that is no model is seen as ever.
+  scene.photometric = false;
+  scene.is_model = false;
+  CHECK_FALSE(stands_in_room(scene));
+}
+
+TEST_CASE("A house, a thing that is turned inside out and a box with a lid off are seen from outside") {
+  Scene house = model();
+  add_box(house, glm::vec3(0), kRoom, Fronts::inside);
+  add_box(house, glm::vec3(0), kRoom + glm::vec3(0.1f), Fronts::outside);
+  add_box(house, {-1, -0.6f, 0}, glm::vec3(0.4f), Fronts::outside);
+  CHECK_FALSE(stands_in_room(house));
+  Scene pole = model();  // thin, so that it fills little of the box around it
+  for (int i = 0; i < 6; ++i) {
+    pole.materials.push_back(pole.materials[0]);
+    add_box(pole, {float(i) - 3, 0.15f * float(i) - 0.4f, 0.5f * float(i) - 1}, glm::vec3(0.3f), Fronts::inside);
+  }
+  CHECK_FALSE(stands_in_room(pole));
+  Scene open = model();
+  add_box(open, glm::vec3(0), kRoom, Fronts::inside);
+  add_box(open, {-1, -0.6f, 0}, glm::vec3(0.4f), Fronts::outside);
+  open.meshes[0].indices.resize(open.meshes[0].indices.size() - 6);  // the front, at +z
+  CHECK_FALSE(stands_in_room(open));
+}
+
 TEST_CASE("What is drawn nowhere has a camera all the same") {
   const Camera camera = camera_seeing(Scene{});
   CHECK(camera.near > 0.0f);

@@ -37,8 +37,7 @@ Scene SceneMaker::make() {
   lose_textures(scene_, pictures_.lost());
   bake_uv(scene_, materials_.uv_sources(), [this](uint64_t bytes) { accessors_.take(bytes, "/meshes"); });
   set_time(scene_, 0.0);
-  scene_.camera_of_ours = !timeline.node_camera;
-  if (scene_.camera_of_ours) scene_.camera = camera_seeing(scene_);
+  if (!timeline.node_camera) add_camera_of_ours(scene_);
   if (!moves()) timeline = Timeline{};
   if (scene_.lights.empty()) {
     add_lights_of_ours(scene_);

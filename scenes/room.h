@@ -1,0 +1,22 @@
+#pragma once
+#include <optional>
+
+#include "scenes/scene.h"
+#include "scenes/scene_defaults.h"
+
+namespace trueshade {
+
+/// A camera inside a model that is a room, with the y axis up; nothing for a model that is better seen from outside.
+///
+/// A model is a room where an eye outside, in the direction `toward`, sees hardly anything but backs of walls; where
+/// the walls enclose half of the box around the model; and where more is inside: a thing between the walls, or walls of
+/// three materials. (A ball that is turned inside out is none of these but the first.) The eye stands in the room where
+/// walls are seen in every direction, as near to the corner below `toward` as it can, and looks at the room's middle. A
+/// model of more than 200,000 triangles is not looked at.
+///
+/// `bounds`: without ground. `toward`: world, unit, from the model to the eye outside. `fov_y_rad`: full vertical
+/// angle.
+std::optional<Camera> camera_in_room(const Scene& scene, const Bounds& bounds, const glm::dvec3& toward,
+                                     float fov_y_rad);
+
+}  // namespace trueshade
