@@ -128,6 +128,18 @@ int compare_two_pictures(const CompareOptions& options) {
   return passes(pictures) || pictures.is_accepted ? 0 : 1;
 }
 
+/// An error that ends the command, in the report for CI services: they would show that of an earlier run.
+void report_failure(const CompareOptions& options, const Error& error) {
+  PictureRow row;
+  row.name = options.test;
+  row.state = RowState::unreadable;
+  row.reason = error.what();
+  try {
+    write_text(*options.junit, junit_xml({options.reference, options.test, {row}, {}, {}}));
+  } catch (const Error&) {  // the first error is the one to tell
+  }
+}
+
 int compare_two_folders(CompareOptions options) {
   const auto first_page = std::stable_partition(options.outputs.begin(), options.outputs.end(),
                                                 [](const std::string& path) { return !is_page(path); });
@@ -173,7 +185,12 @@ int compare_pictures(const CompareOptions& options) {
   check_names(options);
   std::error_code unknown;
   const bool is_first = options.accept && is_folder(options.test) && !fs::exists(options.reference, unknown);
-  return is_first || is_folder(options.reference) ? compare_two_folders(options) : compare_two_pictures(options);
+  try {
+    return is_first || is_folder(options.reference) ? compare_two_folders(options) : compare_two_pictures(options);
+  } catch (const Error& error) {
+    if (options.junit && error.kind() != ErrorKind::usage) report_failure(options, error);
+    throw;
+  }
 }
 
 }  // namespace trueshade
