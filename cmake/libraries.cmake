@@ -1,5 +1,5 @@
 # How many source files are compiled at a time; 1 compiles each alone, which shows a header that lacks an include.
-set(TRUESHADE_BATCH 8 CACHE STRING "Source files of a library compiled as one")
+set(TRUESHADE_BATCH 16 CACHE STRING "Source files of a library or a test program compiled as one")
 function(trueshade_compile_in_batches target)
   if(TRUESHADE_BATCH GREATER 1)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${TRUESHADE_BATCH})

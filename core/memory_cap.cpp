@@ -14,8 +14,8 @@
 namespace trueshade {
 namespace {
 
-std::atomic<uint64_t> cap{0};      // 0: not set
-std::atomic<uint64_t> unasked{0};  // bytes allowed since the resident ones were last asked for
+std::atomic<uint64_t> most_bytes{0};  // 0: not set
+std::atomic<uint64_t> unasked{0};     // bytes allowed since the resident ones were last asked for
 
 std::string mebibytes(uint64_t bytes) { return std::to_string((bytes + (uint64_t(1) << 20) - 1) >> 20) + " MiB"; }
 
@@ -65,11 +65,11 @@ uint64_t available_memory() {
 }
 
 uint64_t memory_cap() {
-  const uint64_t set = cap;
+  const uint64_t set = most_bytes;
   return set != 0 ? set : available_memory() / 2;
 }
 
-void set_memory_cap(uint64_t bytes) { cap = bytes; }
+void set_memory_cap(uint64_t bytes) { most_bytes = bytes; }
 
 namespace {
 

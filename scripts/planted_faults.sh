@@ -19,12 +19,12 @@ faults=(
 )
 
 race() {  # ./check threads
-  configure tsan TRUESHADE_SIMD=sse4 TRUESHADE_PARTS=all TRUESHADE_TESTS=core TRUESHADE_BATCH=8
+  configure tsan TRUESHADE_SIMD=sse4 TRUESHADE_PARTS=all TRUESHADE_TESTS=core
   build tsan test_core
   build/tsan/tests/core/test_core 'loops within loops*'
 }
 past_end() {  # ./check readers, and ./check fuzz
-  configure fuzz "TRUESHADE_SIMD=avx2;sse4" TRUESHADE_PARTS=all TRUESHADE_TESTS=fuzz TRUESHADE_BATCH=8
+  configure fuzz "TRUESHADE_SIMD=avx2;sse4" TRUESHADE_PARTS=all TRUESHADE_TESTS=fuzz
   build fuzz fuzz_replay
   build/fuzz/tests/fuzz/fuzz_replay ply tests/fuzz/corpus/ply
 }
@@ -46,7 +46,7 @@ word() {  # ./check full
   build release trueshade
   tests/docs/page.sh "$PWD/build/release/cli/trueshade" "$PWD" docs/export.md
 }
-with_command() { configure release TRUESHADE_SIMD=native TRUESHADE_PARTS=all TRUESHADE_TESTS=shading TRUESHADE_BATCH=8; }
+with_command() { configure release TRUESHADE_SIMD=native TRUESHADE_PARTS=all TRUESHADE_TESTS=shading; }
 
 [[ -e $copy/.git ]] || git worktree add --quiet --force --detach "$copy"
 cd "$copy"

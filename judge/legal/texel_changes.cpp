@@ -9,7 +9,7 @@ namespace trueshade::oracle {
 
 namespace {
 
-using Rgba = TexelChanges::Rgba;
+using DoubleTexel = TexelChanges::Rgba;
 
 /// A texture as it may be read, at one place. In doubles, and of one point, which level_range() of a box is too slow
 /// for.
@@ -17,7 +17,7 @@ struct Lookup {
   TexelSource texels;
   double u, v;
 
-  Rgba at_level(size_t level, Filter filter) const {
+  DoubleTexel at_level(size_t level, Filter filter) const {
     const TextureLevel& l = texels.texture.levels[level];
     const bool linear = filter == Filter::linear;
     const double shift = linear ? 0.5 : 0, x = u * l.width - shift, y = v * l.height - shift;
@@ -31,7 +31,7 @@ struct Lookup {
   }
 
   /// As oracle::filtered() has it.
-  Rgba at(double lod) const {
+  DoubleTexel at(double lod) const {
     const Sampler& s = texels.sampler;
     const double last = double(texels.texture.levels.size() - 1);
     if (!(lod > 0) || s.mip_filter == MipFilter::none) return at_level(0, lod > 0 ? s.min_filter : s.mag_filter);
@@ -40,29 +40,29 @@ struct Lookup {
       return at_level(size_t(level), s.min_filter);
     }
     const double low = std::min(std::floor(lod), last), part = lod >= last ? 0 : lod - low;
-    const Rgba texel = at_level(size_t(low), s.min_filter);
+    const DoubleTexel texel = at_level(size_t(low), s.min_filter);
     return part == 0 ? texel : between(texel, at_level(size_t(low) + 1, s.min_filter), part);
   }
 
  private:
-  Rgba texel(size_t level, long long i, long long j) const {
+  DoubleTexel texel(size_t level, long long i, long long j) const {
     const TextureLevel& l = texels.texture.levels[level];
     const TexelValue t = texels.at_wrapped(level, wrapped_index(texels.sampler.wrap[0], i, l.width),
                                            wrapped_index(texels.sampler.wrap[1], j, l.height));
     return {double(t[0]), double(t[1]), double(t[2]), double(t[3])};
   }
 
-  static Rgba between(const Rgba& a, const Rgba& b, double part) {
-    Rgba out;
+  static DoubleTexel between(const DoubleTexel& a, const DoubleTexel& b, double part) {
+    DoubleTexel out;
     for (size_t c = 0; c < 4; ++c) out[c] = a[c] + part * (b[c] - a[c]);
     return out;
   }
 };
 
 /// Difference of two texels, for so much of a cause; what doubles are off is none.
-Rgba slope(const Rgba& to, const Rgba& from, double amount) {
+DoubleTexel slope(const DoubleTexel& to, const DoubleTexel& from, double amount) {
   constexpr double kRounding = 1e-12;
-  Rgba out{};
+  DoubleTexel out{};
   for (size_t c = 0; c < 4; ++c)
     if (const double d = to[c] - from[c]; std::fabs(d) > kRounding * (1 + std::fabs(to[c]))) out[c] = d / amount;
   return out;
@@ -89,19 +89,20 @@ bool is_sure(const Texture& texture, const Sampler& s, double u, double v, doubl
   return is_inside(texture.levels[level]) && (!mixes || is_inside(texture.levels[level + 1]));
 }
 
-Rgba change_of_gain(const Rgba& texel, bool normals) {
+DoubleTexel change_of_gain(const DoubleTexel& texel, bool normals) {
   if (normals) return {texel[0] - 0.5, texel[1] - 0.5, 0, 0};
   return {texel[0], texel[1], texel[2], texel[3]};
 }
 
 /// One code for each linear step between texels that differ; of sRGB as it is decoded.
-Rgba change_of_steps(const Texture& texture, const Rgba& texel, const std::array<const Rgba*, 3>& slopes) {
-  Rgba out{};
+DoubleTexel change_of_steps(const Texture& texture, const DoubleTexel& texel,
+                            const std::array<const DoubleTexel*, 3>& slopes) {
+  DoubleTexel out{};
   const bool srgb = texture.format == TextureFormat::srgb8_a8;
   if (!srgb && texture.format != TextureFormat::rgba8) return out;
   for (size_t c = 0; c < 4; ++c) {
     int steps = 0;
-    for (const Rgba* slope : slopes) steps += std::fabs((*slope)[c]) > 1e-9 ? 1 : 0;
+    for (const DoubleTexel* slope : slopes) steps += std::fabs((*slope)[c]) > 1e-9 ? 1 : 0;
     double code = 1 / 255.0;
     if (srgb && c < 3) {
       const double s = srgb_encoded(texel[c]);
@@ -122,9 +123,9 @@ class Reading {
 
   bool is_srgb() const { return texture_.format == TextureFormat::srgb8_a8; }
 
-  Rgba at(double u, double v, double lod, bool other_order = false) const {
+  DoubleTexel at(double u, double v, double lod, bool other_order = false) const {
     const bool late = is_srgb() && way_.late != other_order;
-    Rgba texel = Lookup{{texture_, sampler_, rules_, nullptr, late}, u, v}.at(lod);
+    DoubleTexel texel = Lookup{{texture_, sampler_, rules_, nullptr, late}, u, v}.at(lod);
     for (size_t c = 0; c < 3 && late; ++c)
       texel[c] = way_.mesa ? double(mesa_decoded(texel[c])) : srgb_decoded(texel[c]);
     return texel;
@@ -156,7 +157,7 @@ std::optional<TexelChanges> texel_changes(const Texture& texture, const Sampler&
   if (!is_sure(texture, s, u, v, lod)) return std::nullopt;
   const Reading reading(texture, s, way);
   TexelChanges out;
-  const auto change = [&out](TexelCause cause) -> Rgba& { return out.change[size_t(cause)]; };
+  const auto change = [&out](TexelCause cause) -> DoubleTexel& { return out.change[size_t(cause)]; };
   out.texel = reading.at(u, v, lod);
   change(TexelCause::gain) = change_of_gain(out.texel, normals);
   constexpr double kPart = 0x1p-3, kShift = 0x1p-6;  // levels and ways, texels

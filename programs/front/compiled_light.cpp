@@ -21,7 +21,7 @@ layout(local_size_x = 1) in;
 void main() {}
 )";
 
-constexpr const char* kBlocks = R"(
+constexpr const char* kBlockDeclarations = R"(
 layout(local_size_x = 1) in;
 layout(std140, set = 0, binding = 0) uniform TsSurface { Surface ts_surface; };
 layout(std140, set = 0, binding = 1) uniform TsLight { Light ts_light; };
@@ -64,7 +64,7 @@ class Definitions {
 };
 
 std::string main_text(const CompiledLight& has) {
-  std::string out = kBlocks;
+  std::string out = kBlockDeclarations;
   out += "void main() {\n  Surface ts_s = ts_surface; Light ts_l = ts_light; View ts_v = ts_view;\n";
   out += "  vec3 ts_added = light(ts_s, ts_l, ts_v);\n  ts_result.light = ts_added;\n";
   out += "  ts_s = ts_surface; ts_l = ts_light; ts_v = ts_view;\n";  // a parameter may be inout

@@ -66,10 +66,10 @@ struct Block {
   std::string_view name, prefix;
   Rate rate;
 };
-constexpr Block kBlocks[] = {{"TsSurface", "surface", Rate::surface},
-                             {"TsLight", "light", Rate::light},
-                             {"TsView", "view", Rate::constant},
-                             {"TsSum", "sum", Rate::sum}};
+constexpr Block kKnownBlocks[] = {{"TsSurface", "surface", Rate::surface},
+                                  {"TsLight", "light", Rate::light},
+                                  {"TsView", "view", Rate::constant},
+                                  {"TsSum", "sum", Rate::sum}};
 
 }  // namespace
 
@@ -80,7 +80,7 @@ void Lowering::declare_input(Variable& variable, uint32_t block) {
   const SpirvType& type = m_.type(block);
   if (type.kind != Kind::structure) refuse("has a uniform that is no block", "put it into one");
   variable.is_read_only = true;
-  for (const Block& known : kBlocks) {
+  for (const Block& known : kKnownBlocks) {
     if (name != known.name) continue;
     if (type.count != 1) refuse("has a block " + name + " of more than one member", "leave it the one");
     ScalarNames(m_, known.rate, variable.input).add(type.members[0], std::string(known.prefix));

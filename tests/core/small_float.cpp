@@ -8,7 +8,7 @@
 namespace trueshade {
 namespace {
 
-constexpr HalfRound kTruncate = HalfRound::toward_zero, kNearest = HalfRound::nearest;
+constexpr HalfRound kToZero = HalfRound::toward_zero, kToNearest = HalfRound::nearest;
 
 /// A finite one by its definition (GL 4.6 core, 2.3.4.3 and 2.3.4.4).
 double value_of(uint32_t code, int fraction_bits) {
@@ -29,14 +29,14 @@ TEST_CASE("unsigned 11- and 10-bit floats are what OpenGL defines, and come back
       REQUIRE(double(middle) == (low + high) / 2);
       const uint32_t above = code + 1 == infinity ? code : code + 1;  // finite values stop at the largest
       for (const float inside : {float(low), std::nextafter(middle, 0.0f), middle, std::nextafter(float(high), 0.0f)})
-        REQUIRE(unsigned_from_float(inside, bits, kTruncate) == code);
-      REQUIRE(unsigned_from_float(float(low), bits, kNearest) == code);
-      REQUIRE(unsigned_from_float(std::nextafter(middle, 0.0f), bits, kNearest) == code);
-      REQUIRE(unsigned_from_float(middle, bits, kNearest) == (code % 2 == 0 ? code : above));
-      REQUIRE(unsigned_from_float(std::nextafter(middle, float(high)), bits, kNearest) == above);
-      if (low > 0) REQUIRE(unsigned_from_float(float(-low), bits, kNearest) == 0);
+        REQUIRE(unsigned_from_float(inside, bits, kToZero) == code);
+      REQUIRE(unsigned_from_float(float(low), bits, kToNearest) == code);
+      REQUIRE(unsigned_from_float(std::nextafter(middle, 0.0f), bits, kToNearest) == code);
+      REQUIRE(unsigned_from_float(middle, bits, kToNearest) == (code % 2 == 0 ? code : above));
+      REQUIRE(unsigned_from_float(std::nextafter(middle, float(high)), bits, kToNearest) == above);
+      if (low > 0) REQUIRE(unsigned_from_float(float(-low), bits, kToNearest) == 0);
     }
-    for (const HalfRound round : {kTruncate, kNearest}) {
+    for (const HalfRound round : {kToZero, kToNearest}) {
       CHECK(unsigned_from_float(std::numeric_limits<float>::infinity(), bits, round) == infinity);
       CHECK(unsigned_from_float(-std::numeric_limits<float>::infinity(), bits, round) == 0);
       CHECK(unsigned_from_float(std::numeric_limits<float>::quiet_NaN(), bits, round) > infinity);

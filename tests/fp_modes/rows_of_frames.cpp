@@ -118,7 +118,7 @@ void call_reading(Bytes& out) {
   out.put_error([] { decode_image({}, "nothing", 1); });
 }
 
-constexpr Row kRows[] = {
+constexpr Row kFrameRows[] = {
     {"core/image_files/image_io.h", "write_image encoded_image encode_png", call_writing},
     {"core/image_files/image_io.h", "read_planes decode_image read_image_info check_writable write_file", call_reading},
     {"shading/frame.h", "render_frame", call_frames},
@@ -129,6 +129,6 @@ constexpr Row kRows[] = {
 
 }  // namespace
 
-std::span<const Row> rows_of_frames() { return kRows; }
+std::span<const Row> rows_of_frames() { return kFrameRows; }
 
 }  // namespace trueshade

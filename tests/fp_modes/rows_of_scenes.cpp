@@ -250,7 +250,7 @@ void call_mesh(Bytes& out) {
     for (const auto& stream : mesh.uv_set(set)) out.put(stream);
 }
 
-constexpr Row kRows[] = {
+constexpr Row kSceneRows[] = {
     {"scenes/builtin/builtin.h", "builtin_scene builtin_scenes", call_builtin},
     {"scenes/camera.h", "clip_from_world clip_from_view view_from_world product view_axis", call_camera},
     {"scenes/light.h", "row_of name_of is_placed has_area", call_light_types},
@@ -327,6 +327,6 @@ std::string scratch_path(std::string_view name) {
   return root + std::string(name);
 }
 
-std::span<const Row> rows_of_scenes() { return kRows; }
+std::span<const Row> rows_of_scenes() { return kSceneRows; }
 
 }  // namespace trueshade

@@ -231,7 +231,7 @@ void call_memory(Bytes& out) {
   require_memory(1, "here", "a byte");
 }
 
-constexpr Row kRows[] = {
+constexpr Row kValueRows[] = {
     {"core/error.h", "Error kind without_zeros",
      [](Bytes& out) { out.put(Error(ErrorKind::io, "here", "a reason", "a remedy").kind()); }},
     {"core/expansion.h", "is_expanded",
@@ -260,8 +260,8 @@ constexpr Row kRows[] = {
     {"scenes/pipeline/image_view.h", "view_from_name", call_names},
     {"scenes/pipeline/light_model.h", "reads_specular_plane takes_gloss shows_unlit maps_metals", call_light_model},
     {"scenes/pipeline/light_program.h", "used is_spirv", call_light_program},
-    {"scenes/pipeline/presets.h",
-     "presets preset_pipeline default_pipeline draws_light_programs draws_by_its_preset", call_light_model},
+    {"scenes/pipeline/presets.h", "presets preset_pipeline default_pipeline draws_light_programs draws_by_its_preset",
+     call_light_model},
     {"scenes/pipeline/pipeline.h",
      "pipeline_from_json pipeline_json validate name_of blends_lights is_forward surface_planes "
      "made_unit_at_vertex made_unit_at_fragment",
@@ -275,6 +275,6 @@ constexpr Row kRows[] = {
 
 }  // namespace
 
-std::span<const Row> rows_of_values() { return kRows; }
+std::span<const Row> rows_of_values() { return kValueRows; }
 
 }  // namespace trueshade

@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 source scripts/setup.sh
 install_packages tests clang llvm
-configure coverage TRUESHADE_SIMD=scalar TRUESHADE_BATCH=8
+configure coverage TRUESHADE_SIMD=scalar
 build coverage fuzz_replay
 replay=build/coverage/tests/fuzz/fuzz_replay
 rm -f build/coverage/*.profraw

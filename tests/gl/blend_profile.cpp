@@ -10,12 +10,12 @@
 #include "core/half.h"
 #include "core/llvmpipe_srgb.h"
 #include "core/small_float.h"
-#include "oracle/blend.h"
 #include "gl/driver/blend_state.h"
 #include "gl/driver/geometry_state.h"
-#include "gl/emit/glsl.h"
 #include "gl/driver/objects.h"
 #include "gl/driver/read_back.h"
+#include "gl/emit/glsl.h"
+#include "oracle/blend.h"
 #include "shading/blend/clear_color.h"
 #include "tests/catch.hpp"
 #include "tests/gl/driver.h"
@@ -28,9 +28,6 @@ using namespace trueshade::testing;
 using Rgba = trueshade::testing::Rgba;
 
 namespace {
-
-constexpr NumericProfile kMesa = NumericProfile::mesa_llvmpipe_22_3;
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
 
 /// What a texel holds for a stored value: small floats are exact, so rounding does not matter.
 uint32_t bits_of(Format format, size_t channel, float held) {
@@ -61,8 +58,6 @@ float held(const Image& image, size_t i, size_t c) {
   if (info(image.format).number_class == NumberClass::unorm) return float(image.code(x, y, int(c)));
   return float(image.value(x, y, int(c)));
 }
-
-bool same(float a, float b) { return (a != a && b != b) || std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b); }
 
 /// Draws over the whole of `target` with a fragment shader. `encode`: sRGB targets; otherwise their codes are drawn.
 void draw_over(GLuint program, const GlTexture& target, int width, int height, const BlendState& state,
@@ -204,8 +199,6 @@ size_t different_triples(Format format, const BlendTerm& term, int width, int he
   }
   return count;
 }
-
-Rgba grey(float x) { return {x, x, x, x}; }
 
 /// Every target whose bits this CPU has the driver draw: sRGB codes are made of the CPU's estimates.
 std::vector<Format> targets() {

@@ -13,7 +13,7 @@ using namespace trueshade::oracle;
 
 namespace {
 
-struct Difference {
+struct GlassDifference {
   size_t covered = 0;
   size_t far = 0;        ///< pixels a channel of which is more than two codes off
   size_t mixed = 0;      ///< pixels more than four codes off a frame without transparent surfaces
@@ -36,7 +36,7 @@ struct Stage {
 };
 
 /// Where both show the same opaque object; edges are judged elsewhere.
-Difference difference(Stage& stage, Pipeline pipeline) {
+GlassDifference difference(Stage& stage, Pipeline pipeline) {
   pipeline.width = 120;
   pipeline.height = 90;
   const std::string aovs[] = {"id.object", "albedo"};
@@ -46,7 +46,7 @@ Difference difference(Stage& stage, Pipeline pipeline) {
   const Image *ids = gl.plane("id.object"), *albedo = gl.plane("albedo");
   REQUIRE(ids != nullptr);
   REQUIRE(albedo != nullptr);
-  Difference d;
+  GlassDifference d;
   for (int y = 0; y < pipeline.height; ++y)
     for (int x = 0; x < pipeline.width; ++x) {
       if (ours.aovs[0].image.value(x, y, 0) != ids->value(x, y, 0)) continue;
@@ -85,7 +85,7 @@ TEST_CASE("llvmpipe blends transparent surfaces as we do, in both modes, every p
           pipeline.transparency.mode = mode;
           if (mode == TransparencyMode::into_albedo && is_forward(pipeline.strategy)) continue;
           if (stage == &city && preset.name != presets().front().name) continue;
-          const Difference d = difference(*stage, pipeline);
+          const GlassDifference d = difference(*stage, pipeline);
           INFO(stage->scene.spec << ", " << preset.name << ", " << kStrategyNames[strategy] << ", "
                                  << kTransparencyNames[size_t(mode)]);
           CAPTURE(d.covered, d.far, d.mixed, d.far_plane, d.sum);

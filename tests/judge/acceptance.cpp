@@ -16,12 +16,6 @@ using namespace trueshade::oracle;
 
 namespace {
 
-Profile unknown_of_8_bits() {
-  Profile p;
-  p.subpixel_bits = 8;
-  return p;
-}
-
 /// Every channel of every pixel of a target turned by `change(code, channel, x, y)`.
 template <class Change>
 Capture edited(Capture capture, const Change& change) {
@@ -114,7 +108,7 @@ TEST_CASE("The nine pictures that fool the fuzzy compare are violations with a l
       {"ramp plus 6", edited(right, [](int v, int k, int, int) { return k < 3 ? v + 6 : v; })},
       {"posterised to 5 bits", edited(right, [](int v, int, int, int) { return (v & 0xf8) | v >> 5; })},
       {"off by 132 in all channels", edited(right, [](int v, int, int, int) { return v < 124 ? v + 132 : v - 132; })}};
-  for (const Profile& profile : {unknown_of_8_bits(), *profile_named("d3d-class"), *profile_named("ideal")}) {
+  for (const Profile& profile : {testing::unknown_of_8_bits(), *profile_named("d3d-class"), *profile_named("ideal")}) {
     CHECK(judge_lighting(scene, pipeline, profile, right).passes());
     for (const auto& [name, picture] : pictures) {
       const StageVerdict v = judge_lighting(scene, pipeline, profile, picture);
@@ -124,7 +118,7 @@ TEST_CASE("The nine pictures that fool the fuzzy compare are violations with a l
       CHECK(v.worst.front().pixel_class == PixelClass::violation);
     }
   }
-  const StageVerdict black = judge_lighting(scene, pipeline, unknown_of_8_bits(), pictures[3].second);
+  const StageVerdict black = judge_lighting(scene, pipeline, testing::unknown_of_8_bits(), pictures[3].second);
   REQUIRE(black.count(PixelClass::violation) == 1);
   CHECK((black.worst.front().x == 64 && black.worst.front().y == 90));
 }
@@ -143,7 +137,7 @@ TEST_CASE("A picture moved to every code's other neighbour is legal by the lette
     if (std::fabs(real - std::nearbyint(real)) < 1e-3) return v;
     return v > real ? v - 1 : v + 1;
   });
-  const Verdict by_the_letter = validate_capture(scene, pipeline, moved, {unknown_of_8_bits(), false});
+  const Verdict by_the_letter = validate_capture(scene, pipeline, moved, {testing::unknown_of_8_bits(), false});
   INFO(verdict_json(by_the_letter));
   CHECK(by_the_letter.violations() == 0);
   CHECK(by_the_letter.convicted());

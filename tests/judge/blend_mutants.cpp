@@ -22,7 +22,7 @@ namespace trueshade::testing {
 
 namespace {
 
-struct MutantScore {
+struct BlendScore {
   int changed = 0, rejected = 0, by_last = 0;  ///< that differ from the right ones; rejected; by the last image alone
   uint64_t pixels = 0;
   std::set<std::string> scenes;  ///< that reject it
@@ -40,7 +40,7 @@ std::vector<Scene> blend_mutant_scenes() {
 // Right and wrong steps under each profile.
 void try_blend_mutant(const BlendMutant& mutant, const Scene& original, const Pipeline& preset,
                       std::span<const Profile> profiles, const Renderer& render, const StepRenderer& step,
-                      MutantScore& score) {
+                      BlendScore& score) {
   Scene scene = original;
   Pipeline pipeline = preset;
   if (mutant.base != nullptr) mutant.base(scene, pipeline);
@@ -69,10 +69,10 @@ void try_blend_mutant(const BlendMutant& mutant, const Scene& original, const Pi
   }
 }
 
-void print_scores(const std::map<std::string_view, MutantScore>& scores) {
+void print_scores(const std::map<std::string_view, BlendScore>& scores) {
   std::printf("%-46s %7s %8s %12s %7s %9s\n", "mutant", "changed", "rejected", "by the last", "scenes", "pixels");
   for (const BlendMutant& mutant : blend_mutants()) {
-    const MutantScore& s = scores.at(mutant.name);
+    const BlendScore& s = scores.at(mutant.name);
     std::printf("%-46s %7d %8d %12d %7zu %9llu\n", std::string(mutant.name).c_str(), s.changed, s.rejected, s.by_last,
                 s.scenes.size(), static_cast<unsigned long long>(s.pixels));
   }
@@ -81,7 +81,7 @@ void print_scores(const std::map<std::string_view, MutantScore>& scores) {
 }  // namespace
 
 void try_blend_mutants(std::span<const Profile> profiles, const Renderer& render, const StepRenderer& step) {
-  std::map<std::string_view, MutantScore> scores;
+  std::map<std::string_view, BlendScore> scores;
   for (const Scene& scene : blend_mutant_scenes())
     for (const Strategy strategy : {Strategy::deferred_volumes, Strategy::forward_multipass}) {
       Pipeline pipeline;

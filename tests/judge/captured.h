@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "judge/bounds/profile.h"
 #include "oracle/capture.h"
 #include "scenes/pipeline/transparency.h"
 #include "shading/frame.h"
@@ -16,6 +17,13 @@ inline std::vector<std::string> judged_planes(const LightModel& model) {
   if (reads_specular_plane(model)) planes.emplace_back("specular");
   if (model.emission) planes.emplace_back("emission");
   return planes;
+}
+
+/// A profile that knows of a driver only on which grid it puts vertices.
+inline oracle::Profile unknown_of_8_bits() {
+  oracle::Profile profile;
+  profile.subpixel_bits = 8;
+  return profile;
 }
 
 /// Our own frame as a capture: the target and planes.

@@ -123,6 +123,8 @@ TEST_CASE("llvmpipe's depths of every format and polygon offset are what OpenGL 
     }
 }
 
+namespace {
+
 struct WrongOffset {
   const char* what;
   Offset meant, drawn;
@@ -138,6 +140,8 @@ constexpr WrongOffset kWrongOffsets[] = {
     {"an offset where there is none", {0, 0}, {0, 400}},
     {"factor and units exchanged", {2, 400}, {400, 2}},
 };
+
+}  // namespace
 
 TEST_CASE("Our depths of another offset are violations under every profile") {
   const Scene scene = slopes();

@@ -11,12 +11,6 @@ using trueshade::testing::captured;
 
 namespace {
 
-Profile unknown_of_8_bits() {
-  Profile p;
-  p.subpixel_bits = 8;
-  return p;
-}
-
 Instance upright_quad(const glm::dvec3& at, uint32_t material) {
   Instance quad{0, material, placed(at, {2, 1, 2})};
   std::swap(quad.world_from_object[1], quad.world_from_object[2]);
@@ -50,7 +44,7 @@ Pipeline multipass() {
 }
 
 uint64_t violations(const Scene& scene, const Pipeline& pipeline, const Capture& capture) {
-  return validate_capture(scene, pipeline, capture, {unknown_of_8_bits(), false, {}, {}}).violations();
+  return validate_capture(scene, pipeline, capture, {testing::unknown_of_8_bits(), false, {}, {}}).violations();
 }
 
 void check_ties(DepthFunc func, float clear, float factor, float units, Format format) {
@@ -114,7 +108,7 @@ TEST_CASE("What is noperspective is linear in the window where the near plane cu
             plane.image.set_code(x, y, 0, std::bit_cast<uint32_t>(float(u)));
         }
     }
-    return judge_gbuffer(scene, pipeline, unknown_of_8_bits(), capture).count(PixelClass::violation);
+    return judge_gbuffer(scene, pipeline, testing::unknown_of_8_bits(), capture).count(PixelClass::violation);
   };
   CHECK(by_formula(0) == 0);
   CHECK(by_formula(0.02) > 300);

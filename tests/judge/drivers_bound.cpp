@@ -14,7 +14,7 @@ using namespace trueshade::oracle;
 
 namespace {
 
-constexpr int kWidth = 256, kHeight = 128;
+constexpr int kCityWidth = 256, kCityHeight = 128;
 
 /// A wavy sheet that fills the view, `count` lights before it whose colours add up to about one.
 Scene wavy_scene(int count, float shininess) {
@@ -65,7 +65,7 @@ void judge_cases(GlDriver which, std::initializer_list<int> counts) {
       const Scene scene = wavy_scene(count, s);
       GlRenderer renderer(*context, scene, 0, &programs);
       Pipeline pipeline;
-      pipeline.width = kWidth, pipeline.height = kHeight;
+      pipeline.width = kCityWidth, pipeline.height = kCityHeight;
       pipeline.light_model.shininess = s;
       pipeline.target = Format::rgba32f;
       const StageVerdict floats = judge_lighting(scene, pipeline, unknown, renderer.draw(pipeline).capture);
@@ -80,7 +80,7 @@ void judge_cases(GlDriver which, std::initializer_list<int> counts) {
           int(codes.count(PixelClass::branch)), int(codes.count(PixelClass::violation)));
       std::fflush(stdout);
       CAPTURE(count, s);
-      CHECK(floats.covered == uint64_t(kWidth) * kHeight);
+      CHECK(floats.covered == uint64_t(kCityWidth) * kCityHeight);
       CHECK(floats.passes());
       CHECK(codes.passes());
       CHECK(floats.worst_error > 0);

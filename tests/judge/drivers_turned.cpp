@@ -43,7 +43,7 @@ bool alarm(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
 }
 
 /// Any strategy, with any extents of lights that it may have, into any target.
-void any_way_to_draw(Pipeline& pipeline, Pcg32& random) {
+void any_way_of_light_volumes(Pipeline& pipeline, Pcg32& random) {
   pipeline.strategy = Strategy(random.below(uint32_t(std::size(kStrategyNames))));
   pipeline.target = kTargetFormats[random.below(uint32_t(std::size(kTargetFormats)))];
   if (pipeline.strategy == Strategy::deferred_volumes)
@@ -67,7 +67,7 @@ Alarms turned_and_moved(const GlContext& context, int scenes, uint64_t first_see
     Pcg32 random(first_seed + uint64_t(i));
     const Scene scene = testing::random_scene(random);
     Pipeline pipeline = testing::random_pipeline(random);
-    any_way_to_draw(pipeline, random);
+    any_way_of_light_volumes(pipeline, random);
     for (int rotation = 0; rotation < 3; ++rotation) {
       GlRenderer renderer(context, scene, rotation);
       for (int move = 0; move < 4; ++move) {

@@ -21,14 +21,8 @@ using trueshade::testing::Liberties;
 
 namespace {
 
-Profile unknown_of_8_bits() {
-  Profile p;
-  p.subpixel_bits = 8;
-  return p;
-}
-
 Verdict judged(const Scene& scene, const Pipeline& pipeline, const Capture& capture) {
-  return validate_capture(scene, pipeline, capture, {unknown_of_8_bits(), false, {}, {}});
+  return validate_capture(scene, pipeline, capture, {testing::unknown_of_8_bits(), false, {}, {}});
 }
 
 bool fails(const Verdict& v) { return v.violations() > 0 || v.convicted(); }

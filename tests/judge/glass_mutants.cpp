@@ -145,7 +145,7 @@ void try_glass_mutants(std::span<const Profile> profiles, const GlassRenderer& r
 
 namespace {
 
-void try_ours(testing::Tries tries) {
+void try_our_glass(testing::Tries tries) {
   const testing::GlassRenderer renderer{
       [](const Scene& s, const Pipeline& p) { return testing::captured(s, p); },
       [](const Scene& s, const Pipeline& p, const StepSink& light, const StepSink& object) {
@@ -164,8 +164,8 @@ void try_ours(testing::Tries tries) {
 }  // namespace
 
 TEST_CASE("Wrong ways of drawing transparent surfaces are rejected, right ones explained", "[slow]") {
-  try_ours(testing::Tries::half);
+  try_our_glass(testing::Tries::half);
 }
 TEST_CASE("Wrong ways of drawing transparent surfaces are rejected on every picture", "[long]") {
-  try_ours(testing::Tries::all);
+  try_our_glass(testing::Tries::all);
 }

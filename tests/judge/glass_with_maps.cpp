@@ -88,8 +88,8 @@ Scene glass_room() {
 }
 
 /// A picture by a driver, and what it was seen to be before and after each transparent surface.
-struct Watched {
-  Watched(const GlContext& context, const Scene& scene, const Pipeline& pipeline, KeptPrograms& programs) {
+struct WatchedGlass {
+  WatchedGlass(const GlContext& context, const Scene& scene, const Pipeline& pipeline, KeptPrograms& programs) {
     GlDraw how;
     how.after_object = [this](int i, const Image& target) { after_object.emplace_back(i, target); };
     capture = GlRenderer(context, scene, 0, &programs).draw(pipeline, how).capture;
@@ -110,7 +110,7 @@ struct Watched {
   std::vector<std::pair<int, Image>> after_object;
 };
 
-std::vector<Pipeline> pipelines() {
+std::vector<Pipeline> glass_pipelines() {
   std::vector<Pipeline> out;
   for (const char* preset : {"punctual", "gl-fixed"})
     for (const Strategy strategy : {Strategy::deferred_loop, Strategy::forward_loop}) {
@@ -144,14 +144,14 @@ TEST_CASE("Glass with maps of metal, emission and occlusion by llvmpipe is expla
       {"no map of occlusion", [](Material& m) { m.occlusion_map = {}; }},
       {"occlusion half as strong", [](Material& m) { m.occlusion_strength = 0.375f; }}};
   const Scene scene = glass_room();
-  for (const Pipeline& pipeline : pipelines()) {
-    const Watched right(*context, scene, pipeline, programs);
+  for (const Pipeline& pipeline : glass_pipelines()) {
+    const WatchedGlass right(*context, scene, pipeline, programs);
     CAPTURE(pipeline.preset, name_of(pipeline.strategy));
     for (const bool by_object : {false, true}) CHECK(right.violations(scene, pipeline, profile, by_object) == 0);
     for (const Wrong& wrong : kWrong) {
       Scene changed = scene;
       wrong.change(changed.materials[kGlass]);
-      const Watched drawn(*context, changed, pipeline, programs);
+      const WatchedGlass drawn(*context, changed, pipeline, programs);
       CAPTURE(wrong.name);
       const uint64_t by_picture = drawn.violations(scene, pipeline, profile, false),
                      by_object = drawn.violations(scene, pipeline, profile, true);

@@ -18,7 +18,7 @@ bool is_faulty(GlDriver which, const Pipeline& p) {
          p.strategy == Strategy::forward_multipass;
 }
 
-void check_driver(GlDriver which) {
+void check_profile_of(GlDriver which) {
   const GlContext* context = testing::opened(which);
   if (context == nullptr) return;
   Profile unknown;
@@ -50,7 +50,7 @@ void check_driver(GlDriver which) {
 
 }  // namespace
 
-TEST_CASE("llvmpipe is not convicted under any preset and strategy") { check_driver(GlDriver::llvmpipe); }
+TEST_CASE("llvmpipe is not convicted under any preset and strategy") { check_profile_of(GlDriver::llvmpipe); }
 TEST_CASE("softpipe is not convicted under any preset and strategy but one, of whose fault it is") {
-  check_driver(GlDriver::softpipe);
+  check_profile_of(GlDriver::softpipe);
 }

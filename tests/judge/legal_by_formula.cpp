@@ -60,10 +60,10 @@ class Edges {
 
 /// Where a plane's values are among a vertex's; nothing of planes that are not interpolated.
 std::optional<size_t> value_of(const std::string& plane) {
-  if (plane == "position") return kPosition;
-  if (plane == "normal") return kNormal;
-  if (plane == "albedo") return kAlbedo;
-  return plane == "uv" ? std::optional<size_t>(kUv) : std::nullopt;
+  if (plane == "position") return oracle::kPosition;
+  if (plane == "normal") return oracle::kNormal;
+  if (plane == "albedo") return oracle::kAlbedo;
+  return plane == "uv" ? std::optional<size_t>(oracle::kUv) : std::nullopt;
 }
 
 bool small_float(const Image& image) { return info(image.format).small_float(); }

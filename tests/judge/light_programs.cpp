@@ -208,7 +208,9 @@ TEST_CASE("What a driver may compute of a light program lies within its bounds, 
   for (const char* profile : {"unknown", "webgpu"}) check_held(profile, 20000);
 }
 
-TEST_CASE("Light programs judged in lanes have the lights and branches of one by one, and bounds about as large") {
+TEST_CASE(
+    "Light programs judged_by_any_driver in lanes have the lights and branches of one by one, and bounds about as "
+    "large") {
   for (const std::string_view target : simd_targets()) {
     const SimdScope scope(target);
     for (size_t m = 0; m < 2 * std::size(kModels); ++m) {
@@ -322,10 +324,8 @@ Scene test_scene() {
   return scene;
 }
 
-Verdict judged(const Scene& scene, const Pipeline& pipeline, const Capture& capture) {
-  Profile profile;
-  profile.subpixel_bits = 8;
-  return validate_capture(scene, pipeline, capture, {profile, false, {}, {}});
+Verdict judged_by_any_driver(const Scene& scene, const Pipeline& pipeline, const Capture& capture) {
+  return validate_capture(scene, pipeline, capture, {testing::unknown_of_8_bits(), false, {}, {}});
 }
 
 }  // namespace
@@ -335,7 +335,7 @@ TEST_CASE("Our own frames of light programs are explained whole") {
   for (const char* name : kModels)
     for (const Format target : {Format::rgba8, Format::rgba16f, Format::rgba32f}) {
       const Pipeline pipeline = pipeline_of(model(name), target);
-      const Verdict verdict = judged(scene, pipeline, captured(scene, pipeline));
+      const Verdict verdict = judged_by_any_driver(scene, pipeline, captured(scene, pipeline));
       INFO(name << " in " << info(target).name << ": " << verdict.violations() << " violations");
       CHECK(verdict.violations() == 0);
       CHECK(!verdict.convicted());
@@ -364,7 +364,7 @@ Found found_slips(std::span<const Slip> slips, size_t step) {
     REQUIRE(at != std::string::npos);
     wrong.text.replace(at, std::string(slip.right).size(), slip.wrong);
     const Capture capture = captured(scene, pipeline_of(wrong, Format::rgba8));
-    const Verdict verdict = judged(scene, pipeline_of(model(slip.model), Format::rgba8), capture);
+    const Verdict verdict = judged_by_any_driver(scene, pipeline_of(model(slip.model), Format::rgba8), capture);
     ++planted, convicted += verdict.violations() > 0 || verdict.convicted();
     if (verdict.violations() == 0 && !verdict.convicted())
       WARN("not convicted: " << slip.right << " as " << slip.wrong);
@@ -412,7 +412,7 @@ TEST_CASE("A slip is named by its line in small floats too, which are cut off wh
     wrong.text.replace(at, 4, "");
     const auto line = 1 + std::count(wrong.text.begin(), wrong.text.begin() + ptrdiff_t(at), '\n');
     const Capture capture = captured(scene, pipeline_with(wrong));
-    const Verdict verdict = judged(scene, pipeline_with(right), capture);
+    const Verdict verdict = judged_by_any_driver(scene, pipeline_with(right), capture);
     const std::vector<Finding> findings = diagnose(scene, pipeline_with(right), Profile{}, capture, verdict.stages);
     REQUIRE(!findings.empty());
     CHECK_THAT(findings[0].text, Catch::StartsWith("line " + std::to_string(line) + " of "));
@@ -457,7 +457,7 @@ TEST_CASE("A parameter that had another value is named, and what a picture's lig
   const auto names_of_findings = [&](const LightProgram& drawn, const Scene& lit) {
     const Capture capture = captured(lit, pipeline_of(drawn, Format::rgba8));
     const Pipeline pipeline = pipeline_of(right, Format::rgba8);
-    const Verdict verdict = judged(scene, pipeline, capture);
+    const Verdict verdict = judged_by_any_driver(scene, pipeline, capture);
     const std::vector<Finding> findings = diagnose(scene, pipeline, Profile{}, capture, verdict.stages);
     std::string names;
     for (const Finding& f : findings) names += f.name + ' ';
@@ -476,18 +476,18 @@ TEST_CASE("Where a light program may give NaN nothing is convicted, and nothing 
   const LightProgram lost{
       "lost.glsl", "vec3 light(Surface s, Light l, View v) { return vec3(sqrt(-1.0 - s.albedo.r)); }", {}, {}};
   const Scene scene = test_scene();
-  const Verdict verdict =
-      judged(scene, pipeline_of(lost, Format::rgba8), captured(scene, pipeline_of(model("ggx"), Format::rgba8)));
+  const Verdict verdict = judged_by_any_driver(scene, pipeline_of(lost, Format::rgba8),
+                                               captured(scene, pipeline_of(model("ggx"), Format::rgba8)));
   CHECK(verdict.violations() == 0);
   CHECK(verdict.stages.at(1).count(PixelClass::undefined) > verdict.stages.at(1).covered / 2);
 }
 
-TEST_CASE("What finish() takes from the surface alone is of the surface that is judged") {
+TEST_CASE("What finish() takes from the surface alone is of the surface that is judged_by_any_driver") {
   LightProgram program = model("ggx");
   program.text += "vec4 finish(Surface s, View v, vec3 sum) { return vec4(sum, s.albedo.g); }\n";
   const Scene scene = test_scene();
   const Pipeline pipeline = pipeline_of(program, Format::rgba8);
-  const Verdict verdict = judged(scene, pipeline, captured(scene, pipeline));
+  const Verdict verdict = judged_by_any_driver(scene, pipeline, captured(scene, pipeline));
   CHECK(verdict.violations() == 0);
 }
 
@@ -502,7 +502,7 @@ TEST_CASE("Unsigned integers of a light program are bounded as unsigned") {
       {}};
   const Scene scene = test_scene();
   const Pipeline pipeline = pipeline_of(hashed, Format::rgba32f);
-  const Verdict verdict = judged(scene, pipeline, captured(scene, pipeline));
+  const Verdict verdict = judged_by_any_driver(scene, pipeline, captured(scene, pipeline));
   CHECK(verdict.violations() == 0);
   CHECK(verdict.stages.at(1).count(PixelClass::undefined) == 0);
 }

@@ -7,6 +7,7 @@
 #include "core/llvmpipe_srgb.h"
 #include "judge/legal/intel_srgb.h"
 #include "tests/judge/loose_renderer.h"
+#include "tests/judge/srgb_in_double.h"
 
 namespace trueshade::testing {
 
@@ -70,7 +71,7 @@ uint32_t small_bits(LooseFloat& f, const Liberties& liberties, const FormatInfo&
 double encoded(const FormatInfo& layout, int channel, double v) {
   const double value = std::clamp(v, 0.0, 1.0);
   if (!layout.srgb_channel(channel)) return value;
-  return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
+  return srgb_encoded(value);
 }
 
 /// Ten bits are the upper ones of sixteen, and two of alpha the nearest (docs/arithmetic.md section 11).
@@ -140,8 +141,6 @@ bool blends_in_codes(Format format, const Liberties& liberties) {
 
 namespace {
 
-double decoded(double s) { return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4); }
-
 /// Numbers from 0 to 1, or codes; each product rounded as its arithmetic may.
 struct LooseNumbers {
   LooseFloat& f;
@@ -184,7 +183,7 @@ std::array<double, 4> loose_blend(LooseFloat& f, const BlendState& state, Format
       continue;
     }
     if (fixed)
-      d[k] = layout.srgb_channel(int(k)) ? decoded(d[k] / largest) : double(f.div(float(d[k]), float(largest)));
+      d[k] = layout.srgb_channel(int(k)) ? srgb_decoded(d[k] / largest) : double(f.div(float(d[k]), float(largest)));
   }
   for (size_t k = 0; k < 4; ++k) {
     const BlendTerm& term = k == 3 ? state.alpha : state.rgb;

@@ -2,13 +2,11 @@
 #include <cmath>
 
 #include "tests/judge/loose_renderer.h"
+#include "tests/judge/srgb_in_double.h"
 
 namespace trueshade::testing {
 
 namespace {
-
-double encoded(double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055; }
-double decoded(double s) { return s <= 0.04045 ? std::max(s, 0.0) / 12.92 : std::pow((s + 0.055) / 1.055, 2.4); }
 
 /// Linear steps of a lookup: along u and v, between levels.
 int steps_of(const Sampler& s, long double lod) {
@@ -103,7 +101,7 @@ std::array<float, 4> LooseTextures::one_way(LooseFloat& f, const TextureSlot& sl
   std::array<float, 4> out{};
   for (size_t c = 0; c < 4; ++c) {
     const auto v = double(value[c]);
-    out[c] = f.mul(float(!late || c == 3 ? v : way.mesa_decode ? mesa_decoded(v) : decoded(v)), 1.0f);
+    out[c] = f.mul(float(!late || c == 3 ? v : way.mesa_decode ? mesa_decoded(v) : srgb_decoded(v)), 1.0f);
   }
   return out;
 }
@@ -159,10 +157,10 @@ std::array<float, 4> LooseTextures::texel(LooseFloat& f, const TextureSlot& slot
       value = std::clamp(value + off * f.random().between(-1, 1), 0.0, 1.0);
     if (srgb && c < 3 &&
         free_.any_neighbour) {  // a fifth of a code: each texel may be half a one off, their mean by less
-      const double s8 = (late ? value : encoded(value)) + 0.2 / 255 * f.random().between(-1, 1);
-      value = decoded(std::min(s8, 1.0));
+      const double s8 = (late ? value : srgb_encoded(value)) + 0.2 / 255 * f.random().between(-1, 1);
+      value = srgb_decoded(std::min(s8, 1.0));
     } else if (late && c < 3) {
-      value = decoded(value);
+      value = srgb_decoded(value);
     }
     out[c] = f.mul(float(value), 1.0f);
   }

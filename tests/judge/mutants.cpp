@@ -10,7 +10,7 @@ using namespace trueshade::oracle;
 
 namespace {
 
-void try_ours(testing::Tries tries) {
+void try_our_frames(testing::Tries tries) {
   std::vector<Profile> profiles;
   for (const char* name : {"ideal", "d3d-class", "unknown"}) {
     profiles.push_back(*profile_named(name));
@@ -23,7 +23,7 @@ void try_ours(testing::Tries tries) {
 
 }  // namespace
 
-TEST_CASE("Wrong renderers are rejected wherever they leave the legal sets") { try_ours(testing::Tries::half); }
+TEST_CASE("Wrong renderers are rejected wherever they leave the legal sets") { try_our_frames(testing::Tries::half); }
 TEST_CASE("Wrong renderers are rejected on every picture where they leave the legal sets", "[long]") {
-  try_ours(testing::Tries::all);
+  try_our_frames(testing::Tries::all);
 }

@@ -22,8 +22,8 @@ using testing::opened;
 namespace {
 
 /// A picture, its target after each light where lights are drawn one by one, and after each transparent object.
-struct Watched {
-  Watched(GlRenderer& renderer, const Pipeline& pipeline) {
+struct WatchedLights {
+  WatchedLights(GlRenderer& renderer, const Pipeline& pipeline) {
     GlDraw draw;
     if (blends_lights(pipeline.strategy))
       draw.after_light = [this](int, const Image& target) { after_light.push_back(target); };
@@ -34,7 +34,7 @@ struct Watched {
       for (const auto& [i, target] : after_object) sink(i, target);
     };
   }
-  Watched(const Watched&) = delete;
+  WatchedLights(const WatchedLights&) = delete;
 
   Capture capture;
   std::vector<Image> after_light;
@@ -52,7 +52,7 @@ struct Others {
 void check_frame(const GlContext& context, GlRenderer& renderer, const Scene& scene, const Pipeline& pipeline,
                  std::map<std::string, Others>& others) {
   const bool known = testing::is_of_known_profile(context);
-  const Watched drawn(renderer, pipeline);
+  const WatchedLights drawn(renderer, pipeline);
   for (const char* profile_name : {"unknown", "mesa-llvmpipe-22.3"}) {
     Profile profile = *profile_named(profile_name);
     if (profile.name == "unknown") profile.subpixel_bits = context.info().subpixel_bits;
@@ -128,7 +128,7 @@ TEST_CASE("Maps, ten-bit normals, mixed extents and glass by llvmpipe are explai
         add_glass(scene);
         add_bumps(scene, pipeline);
         GlRenderer renderer(*context, scene, 0, &programs);
-        const Watched drawn(renderer, pipeline);
+        const WatchedLights drawn(renderer, pipeline);
         for (const char* name : {"unknown", "mesa-llvmpipe-22.3"}) {
           Profile profile = *profile_named(name);
           if (profile.name == "unknown") profile.subpixel_bits = context->info().subpixel_bits;
@@ -174,7 +174,7 @@ TEST_CASE("llvmpipe's blends into every target format are explained, whatever th
         pipeline.blend.constant = {0.75f, 0.5f, 0.25f, 0.5f};
         pipeline.blend.mask[3] = true;
       }
-      std::optional<Watched> drawn;
+      std::optional<WatchedLights> drawn;
       try {
         drawn.emplace(renderer, pipeline);
       } catch (const std::runtime_error&) {
@@ -215,7 +215,7 @@ TEST_CASE("What llvmpipe clears is explained in every target format, whatever th
       pipeline.target = target;
       pipeline.strategy = i % 2 == 0 ? Strategy::deferred_loop : Strategy::deferred_volumes;
       GlRenderer renderer(*context, scene, 0, &programs);
-      const Watched drawn(renderer, pipeline);
+      const WatchedLights drawn(renderer, pipeline);
       for (const char* name : {"unknown", "mesa-llvmpipe-22.3"}) {
         if (name != std::string_view("unknown") && !known) continue;
         Profile profile = *profile_named(name);

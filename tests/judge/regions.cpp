@@ -12,14 +12,14 @@ using namespace trueshade::oracle;
 
 namespace {
 
-constexpr int kWidth = 320, kHeight = 240;
+constexpr int kWholeWidth = 320, kWholeHeight = 240;
 
 /// Choices all over an image, one in `apart` pixels, groups of `group` of them that follow each other.
 std::vector<PixelChoice> choices_all_over(uint32_t apart, uint32_t group, float chance,
                                           const std::function<bool(uint32_t x, uint32_t y)>& other) {
   std::vector<PixelChoice> choices;
-  for (uint32_t pixel = 0; pixel < kWidth * kHeight; pixel += apart)
-    choices.push_back({pixel, choices.size() / group, chance, other(pixel % kWidth, pixel / kWidth)});
+  for (uint32_t pixel = 0; pixel < kWholeWidth * kWholeHeight; pixel += apart)
+    choices.push_back({pixel, choices.size() / group, chance, other(pixel % kWholeWidth, pixel / kWholeWidth)});
   return choices;
 }
 
@@ -29,8 +29,9 @@ constexpr double kRare = 1e-7, kUsual = 1e-3;
 
 TEST_CASE("Ties that go one way in one half of the image and the other way in the other half are found") {
   for (const bool upright : {true, false}) {
-    const auto in_half = [=](uint32_t x, uint32_t y) { return upright ? x >= kWidth / 2 : y < kHeight / 2; };
-    const AggregateTest t = least_likely_region("ties", 0.5, choices_all_over(97, 1, 0.5f, in_half), kWidth, kHeight);
+    const auto in_half = [=](uint32_t x, uint32_t y) { return upright ? x >= kWholeWidth / 2 : y < kWholeHeight / 2; };
+    const AggregateTest t =
+        least_likely_region("ties", 0.5, choices_all_over(97, 1, 0.5f, in_half), kWholeWidth, kWholeHeight);
     CHECK(t.chance < kRare);
     CHECK(t.where == (upright ? "half at 160,0" : "half at 0,0"));
   }
@@ -40,7 +41,7 @@ TEST_CASE("A tile whose stores went the other way is found at its size, where th
   for (const uint32_t size : {8u, 16u, 32u, 64u}) {
     const auto in_tile = [=](uint32_t x, uint32_t y) { return x / size == 2 && y / size == 1; };
     const AggregateTest t =
-        least_likely_region("stores", 0, choices_all_over(size / 4, 1, 0.2f, in_tile), kWidth, kHeight);
+        least_likely_region("stores", 0, choices_all_over(size / 4, 1, 0.2f, in_tile), kWholeWidth, kWholeHeight);
     CAPTURE(size, t.where, t.observed, t.high);
     CHECK(t.chance < kRare);
     CHECK(t.where == "tile of " + std::to_string(size) + 'x' + std::to_string(size) + " at " +
@@ -53,7 +54,7 @@ TEST_CASE("Choices that one triangle or one value makes are one, wherever they c
   std::vector<PixelChoice> choices = choices_all_over(1, 1, 0.2f, in_tile);
   for (PixelChoice& c : choices)
     if (c.other) c.group = 1u << 20;
-  CHECK(least_likely_region("stores", 0, choices, kWidth, kHeight).chance > kUsual);
+  CHECK(least_likely_region("stores", 0, choices, kWholeWidth, kWholeHeight).chance > kUsual);
 }
 
 TEST_CASE("Of ten thousand images whose choices go the other way as predicted, or less often, none has a rare region") {
@@ -66,8 +67,8 @@ TEST_CASE("Of ten thousand images whose choices go the other way as predicted, o
     const auto other = [&](uint32_t, uint32_t) { return random.between(0, 1) < share; };
     for (const double least_share : {0.0, 0.5})
       rare +=
-          least_likely_region("", least_share, choices_all_over(apart, group, chance, other), kWidth, kHeight).chance <
-                  1e-6
+          least_likely_region("", least_share, choices_all_over(apart, group, chance, other), kWholeWidth, kWholeHeight)
+                      .chance < 1e-6
               ? 1
               : 0;
   }

@@ -51,7 +51,7 @@ void check_inference(const Scene& scene, const Pipeline& pipeline, const Capture
   }
 }
 
-void check_driver(GlDriver which) {
+void check_sampled_rows(GlDriver which) {
   const GlContext* context = testing::opened(which);
   if (context == nullptr) return;
   for (const char* name : {"circle", "cornell"})
@@ -239,11 +239,11 @@ TEST_CASE("The profile inferred from one band of our own frames is that of the w
 }
 
 TEST_CASE("The profile inferred from one band of what llvmpipe draws is that of the whole image") {
-  check_driver(GlDriver::llvmpipe);
+  check_sampled_rows(GlDriver::llvmpipe);
 }
 
 TEST_CASE("The profile inferred from one band of what softpipe draws is that of the whole image") {
-  check_driver(GlDriver::softpipe);
+  check_sampled_rows(GlDriver::softpipe);
 }
 
 TEST_CASE("A wrong pixel outside of the sample is known to every profile that is inferred") {

@@ -3,14 +3,15 @@
 #include <cmath>
 #include <cstdio>
 
-#include "oracle/blend.h"
 #include "gl/driver/renderer.h"
 #include "judge/stages/validate.h"
+#include "oracle/blend.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/shapes.h"
 #include "tests/catch.hpp"
 #include "tests/judge/captured.h"
 #include "tests/judge/drivers.h"
+#include "tests/judge/srgb_in_double.h"
 
 using namespace trueshade;
 using namespace trueshade::oracle;
@@ -44,8 +45,6 @@ Pipeline pipeline_of(int width, int height) {
   p.gbuffer.albedo.format = Format::rgba32f;
   return p;
 }
-
-double encoded(double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055; }
 
 }  // namespace
 
@@ -119,8 +118,8 @@ TEST_CASE("llvmpipe encodes sRGB within its profile's reach of the real code, an
     for (int y = 0; y < 512; ++y)
       for (int x = 0; x < 1024; ++x)
         for (int k = 0; k < 3; ++k) {
-          const double off =
-              std::fabs(255 * encoded(capture.plane("albedo")->value(x, y, k)) - double(capture.color.code(x, y, k)));
+          const double off = std::fabs(255 * testing::srgb_encoded(capture.plane("albedo")->value(x, y, k)) -
+                                       double(capture.color.code(x, y, k)));
           most = std::max(most, off), beyond_half += off > 0.5, ++values;
         }
   }

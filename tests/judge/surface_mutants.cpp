@@ -122,7 +122,7 @@ void try_surface_mutants(std::span<const Profile> profiles, const Renderer& rend
 
 namespace {
 
-void try_ours(testing::Tries tries) {
+void try_our_surfaces(testing::Tries tries) {
   const Renderer render = [](const Scene& s, const Pipeline& p) { return testing::captured(s, p); };
   std::vector<Profile> profiles;
   for (const char* name : {"ideal", "d3d-class", "unknown"}) {
@@ -135,9 +135,9 @@ void try_ours(testing::Tries tries) {
 }  // namespace
 
 TEST_CASE("Wrong maps, ten-bit normals and extents are rejected, right ones explained", "[slow]") {
-  try_ours(testing::Tries::third);
+  try_our_surfaces(testing::Tries::third);
 }
 
 TEST_CASE("Wrong maps, ten-bit normals and extents are rejected on every picture, right ones explained", "[long]") {
-  try_ours(testing::Tries::all);
+  try_our_surfaces(testing::Tries::all);
 }

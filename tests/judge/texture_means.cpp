@@ -24,13 +24,7 @@ using trueshade::testing::Liberties;
 
 namespace {
 
-Profile unknown_of_8_bits() {
-  Profile p;
-  p.subpixel_bits = 8;
-  return p;
-}
-
-Mesh with_uv(Mesh mesh, float times) {
+Mesh with_slanted_uv(Mesh mesh, float times) {
   mesh.uv = {};
   for (size_t v = 0; v < mesh.vertex_count(); ++v) {
     mesh.uv[0].push_back((mesh.position[0][v] + 0.37f * mesh.position[1][v]) * times);
@@ -62,7 +56,7 @@ Sampler sampler_of(Filter filter, MipFilter mip) {
 Scene room(Pattern of, TextureFormat format, const Sampler& sampler, int segments = 28) {
   Scene scene;
   scene.spec = "room";
-  scene.meshes = {with_uv(plane_mesh(segments / 2), 4.0f), with_uv(sphere_mesh(segments), 1.0f)};
+  scene.meshes = {with_slanted_uv(plane_mesh(segments / 2), 4.0f), with_slanted_uv(sphere_mesh(segments), 1.0f)};
   scene.textures = {pattern(of, format, 8, 1), pattern(Pattern::noise, TextureFormat::rgba8, 8, 2)};
   for (int i = 0; i < 2; ++i) {
     Material m;
@@ -101,9 +95,9 @@ Pipeline pipeline_of(Format albedo) {
   return p;
 }
 
-Verdict judged(const Scene& scene, const Pipeline& pipeline, const Capture& capture) {
+Verdict judged_by_means(const Scene& scene, const Pipeline& pipeline, const Capture& capture) {
   ValidateOptions options;
-  options.profile = unknown_of_8_bits();
+  options.profile = testing::unknown_of_8_bits();
   return validate_capture(scene, pipeline, capture, options);
 }
 
@@ -125,7 +119,7 @@ void change_slots(Scene& s, const Change& change) {
       if (slot->used()) change(slot->sampler);
 }
 
-constexpr TextureFault kFaults[] = {
+constexpr TextureFault kTextureFaults[] = {
     {"base colour x0.99",
      [](Scene& s) {
        for (Material& m : s.materials) m.base_color *= glm::vec4(0.99f, 0.99f, 0.99f, 1);
@@ -149,14 +143,14 @@ TEST_CASE("A gain, a level or a scale of all lookups is convicted though each of
   for (const TexturedCase& c : cases())
     for (const Format albedo : {Format::rgba8, Format::rgba16f}) {
       const Pipeline pipeline = pipeline_of(albedo);
-      const Verdict right = judged(c.scene, pipeline, captured(c.scene, pipeline));
+      const Verdict right = judged_by_means(c.scene, pipeline, captured(c.scene, pipeline));
       INFO(c.name << ' ' << info(albedo).name);
       CHECK_FALSE(right.convicted());
-      for (const TextureFault& fault : kFaults) {
+      for (const TextureFault& fault : kTextureFaults) {
         if (fault.of_normals && !c.scene.materials[0].normal_map.used()) continue;
         Scene wrong = c.scene;
         fault.plant(wrong);
-        const Verdict v = judged(c.scene, pipeline, captured(wrong, pipeline));
+        const Verdict v = judged_by_means(c.scene, pipeline, captured(wrong, pipeline));
         INFO(fault.name);
         CHECK(blames_textures(v));
       }
@@ -176,7 +170,7 @@ TEST_CASE(
     return testing::loose_frame(scene, pipeline, l, 1);
   };
   const Capture early = drawn(false), late = drawn(true);
-  for (const Capture* one_way : {&early, &late}) CHECK_FALSE(judged(scene, pipeline, *one_way).convicted());
+  for (const Capture* one_way : {&early, &late}) CHECK_FALSE(judged_by_means(scene, pipeline, *one_way).convicted());
   Capture mixed = early;
   for (size_t i = 0; i < mixed.planes.size(); ++i) {
     if (mixed.planes[i].name != "albedo") continue;
@@ -185,7 +179,7 @@ TEST_CASE(
         if (early.plane("id.object")->value(x, y, 0) == 2)
           std::copy_n(late.planes[i].image.texel(x, y), 4, mixed.planes[i].image.texel(x, y));
   }
-  const Verdict v = judged(scene, pipeline, mixed);
+  const Verdict v = judged_by_means(scene, pipeline, mixed);
   CHECK(v.violations() == 0);
   CHECK(v.convicted());
   CHECK(v.evidence_line().find("another order") != std::string::npos);
@@ -227,7 +221,8 @@ int convicted_of(int count, uint64_t first_seed) {
     l.any_rounding = random.below(2) == 0, l.snapped_planes = random.below(2) == 0;
     l.decode_late = random.below(3) == 0;
     l.way = random_way(random);
-    const Verdict v = judged(scene, pipeline, testing::loose_frame(scene, pipeline, l, first_seed + uint64_t(i)));
+    const Verdict v =
+        judged_by_means(scene, pipeline, testing::loose_frame(scene, pipeline, l, first_seed + uint64_t(i)));
     if (v.violations() == 0 && !v.convicted()) continue;
     ++alarms;
     WARN("image of seed " << first_seed + uint64_t(i) << ": " << v.violations() << " violations; "
@@ -298,9 +293,9 @@ TEST_CASE("Glass whose alpha is 0.49 for 0.5 is convicted though each pixel is l
         pipeline.target = format;
         const Scene right = behind_glass(name, 0.5f), wrong = behind_glass(name, 0.49f);
         INFO(name << ' ' << int(mode) << ' ' << info(format).name);
-        const Verdict v = judged(right, pipeline, captured(wrong, pipeline));
+        const Verdict v = judged_by_means(right, pipeline, captured(wrong, pipeline));
         INFO(v.evidence_line());
         CHECK((v.violations() > 0 || v.convicted()));
-        CHECK_FALSE(judged(right, pipeline, captured(right, pipeline)).convicted());
+        CHECK_FALSE(judged_by_means(right, pipeline, captured(right, pipeline)).convicted());
       }
 }

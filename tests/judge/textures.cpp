@@ -13,6 +13,7 @@
 #include "tests/catch.hpp"
 #include "tests/judge/captured.h"
 #include "tests/judge/drivers.h"
+#include "tests/judge/srgb_in_double.h"
 
 using namespace trueshade;
 using namespace trueshade::oracle;
@@ -20,9 +21,9 @@ using namespace trueshade::testing;
 
 namespace {
 
-constexpr int kWidth = 200, kHeight = 150;
+constexpr int kTexturedWidth = 200, kTexturedHeight = 150;
 
-Mesh with_uv(Mesh mesh, float times) {
+Mesh with_stretched_uv(Mesh mesh, float times) {
   mesh.uv = {};
   for (size_t v = 0; v < mesh.vertex_count(); ++v) {
     mesh.uv[0].push_back((mesh.position[0][v] + 0.37f * mesh.position[1][v]) * times);
@@ -35,7 +36,7 @@ Mesh with_uv(Mesh mesh, float times) {
 Scene textured_room(int variant) {
   Scene scene;
   scene.spec = "textured room " + std::to_string(variant);
-  scene.meshes = {with_uv(plane_mesh(14), 8.0f), with_uv(sphere_mesh(28), 1.3f)};
+  scene.meshes = {with_stretched_uv(plane_mesh(14), 8.0f), with_stretched_uv(sphere_mesh(28), 1.3f)};
   const Pattern patterns[] = {Pattern::checker, Pattern::brick, Pattern::noise};
   for (int i = 0; i < 3; ++i) {
     TexturePattern p;
@@ -73,7 +74,7 @@ Scene textured_room(int variant) {
 
 Pipeline pipeline_of() {
   Pipeline pipeline = presets().front().pipeline;
-  pipeline.width = kWidth, pipeline.height = kHeight;
+  pipeline.width = kTexturedWidth, pipeline.height = kTexturedHeight;
   return pipeline;
 }
 
@@ -266,11 +267,9 @@ TextureSample at(double u) {
 }
 
 bool allows(std::string_view profile, const Texture& texture, const Sampler& sampler, double u, double value) {
-  const Range r = texel_range(texture, sampler, at(u), *profile_named(profile))[0];
+  const oracle::Range r = texel_range(texture, sampler, at(u), *profile_named(profile))[0];
   return value >= r.low && value <= r.high;
 }
-
-double decoded(double s) { return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4); }
 
 Sampler clamped(Filter filter) {
   Sampler s;
@@ -286,7 +285,7 @@ TEST_CASE("An sRGB texture decoded after it was filtered is OpenGL, and neither 
   for (const char* profile : {"unknown", "d3d-class", "mesa-llvmpipe-22.3", "ideal"}) {
     CAPTURE(profile);
     CHECK(allows(profile, ends, linear, 0.5, 0.5));
-    CHECK(allows(profile, ends, linear, 0.5, decoded(0.5)) == (std::string(profile) == "unknown"));
+    CHECK(allows(profile, ends, linear, 0.5, testing::srgb_decoded(0.5)) == (std::string(profile) == "unknown"));
   }
   CHECK_FALSE(allows("unknown", ends, linear, 0.5, 0.7));
   CHECK_FALSE(allows("unknown", ends, linear, 0.5, 0.15));
@@ -297,7 +296,7 @@ TEST_CASE("A decoded code may be off by what its profile says, and not by a code
   for (const int code : {3, 20, 64, 128, 200, 254}) {
     const Texture one = row_of(TextureFormat::srgb8_a8, {uint8_t(code)});
     CAPTURE(code);
-    const auto off_by = [&](double codes) { return decoded((code + codes) / 255.0); };
+    const auto off_by = [&](double codes) { return testing::srgb_decoded((code + codes) / 255.0); };
     CHECK(allows("ideal", one, nearest, 0.5, double(float(off_by(0)))));
     CHECK_FALSE(allows("ideal", one, nearest, 0.5, off_by(0.01)));
     for (const double sign : {-1.0, 1.0}) {
@@ -339,7 +338,7 @@ TEST_CASE("llvmpipe decodes sRGB by the polynomial of its profile: all 256 codes
     return;
   }
   Scene scene;
-  scene.meshes = {with_uv(plane_mesh(1), 1.0f)};
+  scene.meshes = {with_stretched_uv(plane_mesh(1), 1.0f)};
   for (size_t v = 0; v < 4; ++v)
     for (size_t k = 0; k < 2; ++k) scene.meshes[0].uv[k][v] = scene.meshes[0].position[2 * k][v] + 0.5f;
   std::vector<uint8_t> codes(256);

@@ -30,7 +30,7 @@ Mesh with_sets(Mesh mesh, float times) {
 }
 
 /// A floor, a wall that shows its back, a ball with holes through which the inside shows, and two that mirror.
-Scene room() {
+Scene room_of_two_sides() {
   Scene scene;
   scene.spec = "two sides";
   scene.meshes = {with_sets(plane_mesh(14), 3.0f), with_sets(sphere_mesh(28), 1.3f)};
@@ -73,7 +73,7 @@ Scene room() {
 
 /// The same whose balls have tangents, mirrored on one half: along circles about the y axis, unless a pole is near.
 Scene room_with_tangents() {
-  Scene scene = room();
+  Scene scene = room_of_two_sides();
   Mesh& ball = scene.meshes[1];
   for (size_t v = 0; v < ball.vertex_count(); ++v) {
     const float x = ball.position[0][v], z = ball.position[2][v], side = ball.position[1][v] < 0.1f ? 1.0f : -1.0f;
@@ -84,7 +84,7 @@ Scene room_with_tangents() {
   return scene;
 }
 
-std::vector<Pipeline> pipelines() {
+std::vector<Pipeline> two_sided_pipelines() {
   std::vector<Pipeline> all;
   for (const Strategy strategy : {Strategy::deferred_loop, Strategy::deferred_volumes, Strategy::forward_loop})
     for (int i = 0; i < 3; ++i) {
@@ -148,8 +148,8 @@ constexpr Wrong kWrong[] = {
 }  // namespace
 
 TEST_CASE("Both sides and every set of texture coordinates in our own frames are explained, wrong ones are not") {
-  const Scene scene = room();
-  for (const Pipeline& pipeline : pipelines()) {
+  const Scene scene = room_of_two_sides();
+  for (const Pipeline& pipeline : two_sided_pipelines()) {
     INFO(pipeline_json(pipeline));
     const Capture right = captured(scene, pipeline);
     for (const char* profile : {"ideal", "unknown"}) CHECK(violations(scene, pipeline, right, profile, 8) == 0);
@@ -172,8 +172,8 @@ TEST_CASE("What llvmpipe makes of both sides, mirrored instances and further tex
   const GlContext* context = opened(GlDriver::llvmpipe);
   if (context == nullptr) return;
   KeptPrograms programs;
-  const Scene scene = room();
-  for (const Pipeline& pipeline : pipelines()) {
+  const Scene scene = room_of_two_sides();
+  for (const Pipeline& pipeline : two_sided_pipelines()) {
     INFO(pipeline_json(pipeline));
     GlRenderer renderer(*context, scene, 0, &programs);
     const Capture capture = renderer.draw(pipeline).capture;
@@ -217,7 +217,7 @@ constexpr Wrong kWrongTangents[] = {
 
 TEST_CASE("Vertices' tangents in our own frames are explained, wrong ones are not") {
   const Scene scene = room_with_tangents();
-  for (const Pipeline& pipeline : pipelines()) {
+  for (const Pipeline& pipeline : two_sided_pipelines()) {
     INFO(pipeline_json(pipeline));
     const Capture right = captured(scene, pipeline);
     for (const char* profile : {"ideal", "unknown"}) CHECK(violations(scene, pipeline, right, profile, 8) == 0);
@@ -264,7 +264,7 @@ TEST_CASE("What llvmpipe makes of vertices' tangents is legal, and what it makes
   if (context == nullptr) return;
   KeptPrograms programs;
   const Scene scene = room_with_tangents();
-  for (const Pipeline& pipeline : pipelines()) {
+  for (const Pipeline& pipeline : two_sided_pipelines()) {
     INFO(pipeline_json(pipeline));
     const Capture capture = GlRenderer(*context, scene).draw(pipeline).capture;
     CHECK(violations(scene, pipeline, capture, "unknown", context->info().subpixel_bits) == 0);

@@ -41,7 +41,7 @@ Scene city_of_glass() {
   return scene;
 }
 
-Verdict judged(const Scene& scene, const Pipeline& pipeline, const Capture& capture) {
+Verdict judged_vulkan(const Scene& scene, const Pipeline& pipeline, const Capture& capture) {
   ValidateOptions options;
   options.profile = *profile_named("vulkan");
   options.profile.subpixel_bits = 8;
@@ -57,7 +57,7 @@ Verdict judged(const Scene& scene, const Pipeline& pipeline, const Capture& capt
 void check_lavapipe(const Scene& scene, const Pipeline& pipeline) {
   const VulkanFrame frame = drawn_by_vulkan(scene, pipeline, VulkanDriver::software);
   CHECK(frame.subpixel_bits == 8);
-  const Verdict verdict = judged(scene, pipeline, frame.capture);
+  const Verdict verdict = judged_vulkan(scene, pipeline, frame.capture);
   CHECK(verdict.violations() == 0);
   CHECK_FALSE(verdict.convicted());
   CHECK(verdict.stages.size() >= 2);
@@ -86,7 +86,7 @@ TEST_CASE("lavapipe is explained where meshes have tangents and others none, and
     for (float& side : mesh.tangent[3]) side = 1.0f;
   const Pipeline pipeline = small(presets().front().pipeline, Strategy::deferred_loop);
   const VulkanFrame frame = drawn_by_vulkan(lost, pipeline, VulkanDriver::software);
-  CHECK(judged(scene, pipeline, frame.capture).violations() > 7);
+  CHECK(judged_vulkan(scene, pipeline, frame.capture).violations() > 7);
 }
 
 TEST_CASE("lavapipe is explained under lights with an area, drawn by every strategy", "[long]") {
@@ -96,7 +96,8 @@ TEST_CASE("lavapipe is explained under lights with an area, drawn by every strat
       Pipeline pipeline = testing::area_pipeline(model, 64, 48);
       pipeline.light_volumes.point = LightExtent::sphere, pipeline.light_volumes.spot = LightExtent::cone;
       INFO(testing::kAreaScenes[i] << ", " << model);
-      check_lavapipe(testing::area_scene(testing::kAreaScenes[i]), small(pipeline, Strategy(i % std::size(kStrategyNames))));
+      check_lavapipe(testing::area_scene(testing::kAreaScenes[i]),
+                     small(pipeline, Strategy(i % std::size(kStrategyNames))));
     }
 }
 
@@ -149,8 +150,9 @@ TEST_CASE("A frame of lavapipe's under another light is in no legal set") {
   Scene brighter = scene;
   for (Light& light : brighter.lights) light.color *= 1.1f;
   const Pipeline pipeline = small(presets().front().pipeline, Strategy::deferred_loop);
-  CHECK(judged(scene, pipeline, drawn_by_vulkan(brighter, pipeline, VulkanDriver::software).capture).violations() >
-        100);
+  CHECK(
+      judged_vulkan(scene, pipeline, drawn_by_vulkan(brighter, pipeline, VulkanDriver::software).capture).violations() >
+      100);
 }
 
 TEST_CASE("What a Vulkan device cannot hold, draw into or blend is refused in one line that says the limit") {

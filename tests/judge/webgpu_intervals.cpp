@@ -316,14 +316,11 @@ const std::map<std::string, double> kWider{
     {"tanh", 48},    {"div", 2.81},   {"exp", 2.67},    {"exp2", 2.67},       {"pow", 2.67},  {"log", 2.29},
     {"log2", 2.29},  {"sqrt", 1.96},  {"length", 1.96}, {"inversesqrt", 3.01}};
 /// The same of the rules below, which measure from the real result and take floats alone.
-const std::map<std::string, double> kWiderThanRule{{"div", 3.5},    {"sqrt", 3},    {"inversesqrt", 4.001},
-                                                   {"length", 3.1}, {"exp", 3.3},   {"exp2", 3.3},
-                                                   {"log", 3.2},    {"log2", 3.2},  {"pow", 4.001},
-                                                   {"tan", 1.001},  {"sin", 1.001}, {"cos", 1.001},
-                                                   {"atan", 2},     {"atan2", 2},   {"asin", 1.9},
-                                                   {"acos", 1.9},   {"sinh", 3.3},  {"cosh", 3.3},
-                                                   {"tanh", 1.6},   {"asinh", 3.3}, {"acosh", 3.4},
-                                                   {"atanh", 2.9},  {"%", 13},      {"smoothstep", 3.3}};
+const std::map<std::string, double> kWiderThanRule{
+    {"div", 3.5},  {"sqrt", 3},    {"inversesqrt", 4.001}, {"length", 3.1}, {"exp", 3.3},   {"exp2", 3.3},
+    {"log", 3.2},  {"log2", 3.2},  {"pow", 4.001},         {"tan", 1.001},  {"sin", 1.001}, {"cos", 1.001},
+    {"atan", 2},   {"atan2", 2},   {"asin", 1.9},          {"acos", 1.9},   {"sinh", 3.3},  {"cosh", 3.3},
+    {"tanh", 1.6}, {"asinh", 3.3}, {"acosh", 3.4},         {"atanh", 2.9},  {"%", 13},      {"smoothstep", 3.3}};
 
 double factor_of(const std::map<std::string, double>& factors, const std::string& name) {
   const auto found = factors.find(name);
@@ -334,7 +331,7 @@ double factor_of(const std::map<std::string, double>& factors, const std::string
 using Real = long double;
 
 /// Results that are accepted: floats from low to high; open: any value.
-struct Range {
+struct AcceptedRange {
   Real low, high;
   bool open = false;
 };
@@ -350,104 +347,106 @@ Real spec_ulp(Real x) {
   const auto y = float(x);
   return std::min(x - Real(std::nextafterf(y, -HUGE_VALF)), Real(std::nextafterf(y, HUGE_VALF)) - x);
 }
-Range settled(Range r) {
+AcceptedRange settled(AcceptedRange r) {
   if (!(r.low >= -Real(kMost) && r.high <= Real(kMost))) r.open = true;
   if (r.low > 0 && r.low < Real(kLeast)) r.low = 0;
   if (r.high < 0 && r.high > -Real(kLeast)) r.high = 0;
   return r;
 }
-Range exactly(Real x) { return {x, x}; }
-Range rounded(Real low, Real high, bool open) { return settled({down(low), up(high), open}); }
-Range about(Real low, Real high, Real low_off, Real high_off, bool open) {
+AcceptedRange exactly(Real x) { return {x, x}; }
+AcceptedRange rounded(Real low, Real high, bool open) { return settled({down(low), up(high), open}); }
+AcceptedRange about(Real low, Real high, Real low_off, Real high_off, bool open) {
   if (!(std::fabs(low) < 1e39L && std::fabs(high) < 1e39L)) return {0, 0, true};
   return settled({up(low - low_off), down(high + high_off), open});
 }
-Range within_ulps(Real low, Real high, Real low_ulps, Real high_ulps, bool open) {
+AcceptedRange within_ulps(Real low, Real high, Real low_ulps, Real high_ulps, bool open) {
   if (!(std::fabs(low) < 1e39L && std::fabs(high) < 1e39L)) return {0, 0, true};
   return about(low, high, low_ulps * spec_ulp(low), high_ulps * spec_ulp(high), open);
 }
 template <class F>
-std::pair<Real, Real> corners(const Range& x, const Range& y, F f) {
+std::pair<Real, Real> corners(const AcceptedRange& x, const AcceptedRange& y, F f) {
   const Real all[] = {f(x.low, y.low), f(x.low, y.high), f(x.high, y.low), f(x.high, y.high)};
   return {*std::min_element(all, all + 4), *std::max_element(all, all + 4)};
 }
-Range negated(const Range& x) { return {-x.high, -x.low, x.open}; }
-Range plus(const Range& x, const Range& y) { return rounded(x.low + y.low, x.high + y.high, x.open || y.open); }
-Range minus(const Range& x, const Range& y) { return plus(x, negated(y)); }
-Range times(const Range& x, const Range& y) {
+AcceptedRange negated(const AcceptedRange& x) { return {-x.high, -x.low, x.open}; }
+AcceptedRange plus(const AcceptedRange& x, const AcceptedRange& y) {
+  return rounded(x.low + y.low, x.high + y.high, x.open || y.open);
+}
+AcceptedRange minus(const AcceptedRange& x, const AcceptedRange& y) { return plus(x, negated(y)); }
+AcceptedRange times(const AcceptedRange& x, const AcceptedRange& y) {
   const auto [low, high] = corners(x, y, [](Real a, Real b) { return a * b; });
   return rounded(low, high, x.open || y.open);
 }
-bool divides(const Range& y) {
+bool divides(const AcceptedRange& y) {
   const Real least = std::min(std::fabs(y.low), std::fabs(y.high)),
              most = std::max(std::fabs(y.low), std::fabs(y.high));
   return (y.low > 0) == (y.high > 0) && least >= Real(kLeast) && most <= 0x1p126L;
 }
-Range over(const Range& x, const Range& y) {
+AcceptedRange over(const AcceptedRange& x, const AcceptedRange& y) {
   if (x.open || y.open || !divides(y)) return {0, 0, true};
   const auto [low, high] = corners(x, y, [](Real a, Real b) { return a / b; });
   return within_ulps(low, high, 2.5L, 2.5L, false);
 }
-Range inverse_root(const Range& x) {
+AcceptedRange inverse_root(const AcceptedRange& x) {
   if (x.open || !(x.low >= Real(kLeast))) return {0, 0, true};
   return within_ulps(1 / std::sqrt(x.high), 1 / std::sqrt(x.low), 2, 2, false);
 }
-Range root(const Range& x) { return over(exactly(1), inverse_root(x)); }
-Range power_of(Real (*f)(Real), const Range& x) {
+AcceptedRange root(const AcceptedRange& x) { return over(exactly(1), inverse_root(x)); }
+AcceptedRange power_of(Real (*f)(Real), const AcceptedRange& x) {
   return within_ulps(f(x.low), f(x.high), 3 + 2 * std::fabs(x.low), 3 + 2 * std::fabs(x.high), x.open);
 }
-Range exp_of(const Range& x) {
+AcceptedRange exp_of(const AcceptedRange& x) {
   return power_of([](Real v) { return std::exp(v); }, x);
 }
-Range exp2_of(const Range& x) {
+AcceptedRange exp2_of(const AcceptedRange& x) {
   return power_of([](Real v) { return std::exp2(v); }, x);
 }
-Range logarithm(Real (*f)(Real), const Range& x) {
+AcceptedRange logarithm(Real (*f)(Real), const AcceptedRange& x) {
   if (x.open || !(x.low >= Real(kLeast))) return {0, 0, true};
   const auto off = [&](Real v) { return v >= 0.5L && v <= 2 ? 0x1p-21L : 3 * spec_ulp(f(v)); };
   return about(f(x.low), f(x.high), off(x.low), off(x.high), false);
 }
-Range log_of(const Range& x) {
+AcceptedRange log_of(const AcceptedRange& x) {
   return logarithm([](Real v) { return std::log(v); }, x);
 }
-Range log2_of(const Range& x) {
+AcceptedRange log2_of(const AcceptedRange& x) {
   return logarithm([](Real v) { return std::log2(v); }, x);
 }
-Range wave(Real (*f)(Real), const Range& x) {  // of a point
+AcceptedRange wave(Real (*f)(Real), const AcceptedRange& x) {  // of a point
   if (x.open || std::fabs(x.low) > std::numbers::pi_v<Real>) return {0, 0, true};
   return about(f(x.low), f(x.low), 0x1p-11L, 0x1p-11L, false);
 }
-Range sin_of(const Range& x) {
+AcceptedRange sin_of(const AcceptedRange& x) {
   return wave([](Real v) { return std::sin(v); }, x);
 }
-Range cos_of(const Range& x) {
+AcceptedRange cos_of(const AcceptedRange& x) {
   return wave([](Real v) { return std::cos(v); }, x);
 }
-Range angle(const Range& y, const Range& x) {
+AcceptedRange angle(const AcceptedRange& y, const AcceptedRange& x) {
   const bool is_normal = std::min(std::fabs(y.low), std::fabs(y.high)) >= Real(kLeast) && (y.low > 0) == (y.high > 0);
   if (x.open || y.open || !is_normal || !divides(x)) return {0, 0, true};
   const auto [low, high] = corners(y, x, [](Real a, Real b) { return std::atan2(a, b); });
   return within_ulps(low, high, 4096, 4096, false);
 }
-Range either(const Range& x, const Range& y) {
+AcceptedRange either(const AcceptedRange& x, const AcceptedRange& y) {
   return {std::min(x.low, y.low), std::max(x.high, y.high), x.open || y.open};
 }
-Range truncated(const Range& x) { return {std::trunc(x.low), std::trunc(x.high), x.open}; }
-Range floored(const Range& x) { return {std::floor(x.low), std::floor(x.high), x.open}; }
-Range sinh_of(const Range& x) { return times(minus(exp_of(x), exp_of(negated(x))), exactly(0.5L)); }
-Range cosh_of(const Range& x) { return times(plus(exp_of(x), exp_of(negated(x))), exactly(0.5L)); }
-Range other_leg(const Range& x) { return root(minus(exactly(1), times(x, x))); }
-Range smooth(const Range& low, const Range& high, const Range& x) {
-  Range t = over(minus(x, low), minus(high, low));
+AcceptedRange truncated(const AcceptedRange& x) { return {std::trunc(x.low), std::trunc(x.high), x.open}; }
+AcceptedRange floored(const AcceptedRange& x) { return {std::floor(x.low), std::floor(x.high), x.open}; }
+AcceptedRange sinh_of(const AcceptedRange& x) { return times(minus(exp_of(x), exp_of(negated(x))), exactly(0.5L)); }
+AcceptedRange cosh_of(const AcceptedRange& x) { return times(plus(exp_of(x), exp_of(negated(x))), exactly(0.5L)); }
+AcceptedRange other_leg(const AcceptedRange& x) { return root(minus(exactly(1), times(x, x))); }
+AcceptedRange smooth(const AcceptedRange& low, const AcceptedRange& high, const AcceptedRange& x) {
+  AcceptedRange t = over(minus(x, low), minus(high, low));
   t.low = std::clamp<Real>(t.low, 0, 1), t.high = std::clamp<Real>(t.high, 0, 1);
   return times(times(t, t), minus(exactly(3), times(exactly(2), t)));
 }
 
-using Operands = std::array<Range, 3>;
+using Operands = std::array<AcceptedRange, 3>;
 struct Rule {
   const char* name;
   double least, most;  ///< of the operands; of negative ones too, where least is negative
-  Range (*of)(const Operands& v);
+  AcceptedRange (*of)(const Operands& v);
   int operands = 1;
 };
 const Rule kRules[] = {
@@ -555,7 +554,7 @@ TEST_CASE("Each operation of the profile webgpu holds what WGSL's accuracy lets 
         some[k].low -= random.between(0, 1e-5) * std::fabs(double(v)),
             some[k].high += random.between(0, 1e-5) * std::fabs(double(v));
       }
-      const Range legal = rule.of(x);
+      const AcceptedRange legal = rule.of(x);
       for (const bool is_point : {true, false}) {
         const Interval* in = is_point ? point : some;
         const Interval ours = made(rule.name, in[0], in[1], in[2]);

@@ -8,6 +8,7 @@
 namespace trueshade::testing {
 
 using Random = std::mt19937_64;
+/// Bits of `random` in [low, high); a formula of our own, so that every library draws the same numbers.
 double between(Random& random, double low, double high);
 
 /// Meshes of random triangles and small grids, drawn by turned, scaled and mirrored instances.

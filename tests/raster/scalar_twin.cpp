@@ -164,14 +164,15 @@ TEST_CASE("Sheets of triangles of 1 to 50 pixels are the same by the path for th
       for (int x = 0; x <= kQuads; ++x)
         corners.push_back({low + side * (x + between(random, -0.3, 0.3)), low + side * (y + between(random, -0.3, 0.3)),
                            between(random, -0.9, 0.9)});
-    std::vector<Corners> sheets[2];  // the second turned about the middle: what it hides and what hides it changes
+    std::vector<testing::Corners>
+        sheets[2];  // the second turned about the middle: what it hides and what hides it changes
     for (int y = 0; y < kQuads; ++y)
       for (int x = 0; x < kQuads; ++x) {
         const size_t i = size_t(y * (kQuads + 1) + x), above = i + kQuads + 1;
         sheets[0].push_back({corners[i], corners[i + 1], corners[above]});
         sheets[0].push_back({corners[i + 1], corners[above + 1], corners[above]});
       }
-    for (Corners triangle : sheets[0]) {
+    for (testing::Corners triangle : sheets[0]) {
       for (Corner& c : triangle) c.x = kWindow - c.x, c.z = -c.z;
       sheets[1].push_back(triangle);
     }

@@ -10,17 +10,15 @@
 #include "oracle/texture_lookup.h"
 #include "raster/textures/texture.h"
 #include "tests/catch.hpp"
+#include "tests/raster/random_frame.h"
 
 using namespace trueshade;
+using trueshade::testing::between;
+using trueshade::testing::Random;
 
 namespace {
 
-using Random = std::mt19937_64;
 using Texel = std::array<float, 4>;
-
-double between(Random& random, double low, double high) {
-  return low + (high - low) * double(random() >> 11) * 0x1p-53;
-}
 
 Texture random_texture(Random& random, TextureFormat format, int width, int height) {
   Texture texture{"", format, {{width, height, {}}}};

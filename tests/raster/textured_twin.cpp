@@ -164,10 +164,10 @@ TEST_CASE("A map reads the coordinates of its set: as if these were the first") 
 }
 
 TEST_CASE("A cutoff at 0 or a white texture changes no bit, and alpha below the cutoff opens what is behind") {
-  const Corners front{{{0, 0, 0, 1, {0, 0}, {1, 1, 1, 0.5f}},
-                       {256, 0, 0, 1, {1, 0}, {1, 1, 1, 0.5f}},
-                       {0, 256, 0, 1, {0, 1}, {1, 1, 1, 0.5f}}}};
-  Corners back = front;
+  const testing::Corners front{{{0, 0, 0, 1, {0, 0}, {1, 1, 1, 0.5f}},
+                                {256, 0, 0, 1, {1, 0}, {1, 1, 1, 0.5f}},
+                                {0, 256, 0, 1, {0, 1}, {1, 1, 1, 0.5f}}}};
+  testing::Corners back = front;
   for (Corner& c : back) c.z = 0.5;
   Scene scene = window_objects({{front}, {back}});
   const Planes plain = drawn(scene, window_pipeline(), {});
@@ -189,7 +189,7 @@ TEST_CASE("A cutoff at 0 or a white texture changes no bit, and alpha below the 
 }
 
 TEST_CASE("A flat normal map gives the interpolated normal itself, another the one that OpenGL's frame gives") {
-  const Corners corners{{{10, 10, 0, 1, {0, 0}}, {200, 20, 0, 2, {1, 0.25f}}, {30, 220, 0, 3, {0.125f, 1}}}};
+  const testing::Corners corners{{{10, 10, 0, 1, {0, 0}}, {200, 20, 0, 2, {1, 0.25f}}, {30, 220, 0, 3, {0.125f, 1}}}};
   Scene scene = window_scene({corners});
   scene.meshes[0].normal = {{{0.1f, 0.3f, -0.2f}, {0.2f, 0.1f, 0.5f}, {0.9f, 0.7f, 0.6f}}};
   const Planes plain = drawn(scene, window_pipeline(), {});
@@ -248,7 +248,7 @@ glm::mat4x3 placed(const glm::vec3& x, const glm::vec3& y, const glm::vec3& z) {
 }  // namespace
 
 TEST_CASE("Tangents along u of a plane bend normals as its texture coordinates do, mirrored, scaled, from both sides") {
-  Corners corners{{{20, 30, 0, 1, {0, 0}}, {220, 20, 0, 2, {1, 0}}, {40, 200, 0, 1.5, {0, 1}}}};
+  testing::Corners corners{{{20, 30, 0, 1, {0, 0}}, {220, 20, 0, 2, {1, 0}}, {40, 200, 0, 1.5, {0, 1}}}};
   int bent = 0;
   for (const bool mirrored_uv : {false, true})
     for (const bool double_sided : {false, true})

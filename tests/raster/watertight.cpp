@@ -6,6 +6,7 @@
 
 #include "oracle/exact_coverage.h"
 #include "tests/catch.hpp"
+#include "tests/raster/random_frame.h"
 #include "tests/raster/window_scene.h"
 
 using namespace trueshade;
@@ -21,20 +22,13 @@ struct Vertex {
   float clip[4];
 };
 
-using Random = std::mt19937_64;
-
-/// Bits of `random` into [low, high]; its own formula, so that every library draws the same numbers.
-double between(Random& random, double low, double high) {
-  return low + (high - low) * double(random() >> 11) * 0x1p-53;
-}
-
-struct View {
+struct RandomView {
   GeometryState state;
   int width, height;
 };
 
-View random_view(Random& random) {
-  View view{{}, int(8 + random() % 9), int(8 + random() % 9)};
+RandomView random_view(Random& random) {
+  RandomView view{{}, int(8 + random() % 9), int(8 + random() % 9)};
   if (random() % 16 == 0) view.width = view.height = 64;
   if (random() % 4 == 0)
     view.state.viewport = {int(random() % 9) - 4, int(random() % 9) - 4, int(1 + random() % 40),
@@ -121,7 +115,7 @@ std::vector<ClipTriangle> random_torus(Random& random, Family family) {
   return mesh;
 }
 
-std::vector<uint16_t> exact_counts(std::span<const ClipTriangle> triangles, const View& view) {
+std::vector<uint16_t> exact_counts(std::span<const ClipTriangle> triangles, const RandomView& view) {
   std::vector<oracle::ClipTriangleValues> values(triangles.size());
   for (size_t t = 0; t < triangles.size(); ++t)
     for (int i = 0; i < 3; ++i) std::copy_n(triangles[t].vertex[i], 4, values[t].vertex[i]);
@@ -130,14 +124,14 @@ std::vector<uint16_t> exact_counts(std::span<const ClipTriangle> triangles, cons
   return counts;
 }
 
-struct Tally {
+struct CoverageTally {
   uint64_t shapes = 0, samples = 0, hit_twice = 0, missed = 0;
 };
 
 /// Adds up what the targets make of `triangles`, which are `shapes` shapes in one buffer: an error could hide only
 /// behind the opposite error of another shape of the batch at the same pixel.
-void compare(std::span<const ClipTriangle> triangles, uint64_t shapes, const View& view, int tile,
-             std::span<const std::string_view> targets, Tally& tally) {
+void compare(std::span<const ClipTriangle> triangles, uint64_t shapes, const RandomView& view, int tile,
+             std::span<const std::string_view> targets, CoverageTally& tally) {
   const std::vector<uint16_t> exact = exact_counts(triangles, view);
   std::vector<uint16_t> counts(exact.size());
   tally.shapes += shapes;
@@ -169,10 +163,10 @@ void run_pairs(uint64_t seed, uint64_t pairs) {
   for (const Family family : kFamilies) {
     Random random(seed + uint64_t(family));
     const bool careful = family == Family::clipped_by_near || family == Family::huge;
-    Tally tally;
+    CoverageTally tally;
     const uint64_t batches = pairs * kShare[size_t(family)] / kShares / kBatch;
     for (uint64_t batch = 0; batch < batches; ++batch) {
-      const View view = random_view(random);
+      const RandomView view = random_view(random);
       std::vector<ClipTriangle> triangles;
       for (uint64_t i = 0; i < kBatch; ++i)
         for (const ClipTriangle& t : random_pair(random, family)) triangles.push_back(t);
@@ -191,9 +185,9 @@ void run_fans_and_meshes(uint64_t seed, uint64_t count) {
   const std::vector<std::string_view> targets = simd_targets();
   for (const Family family : kFamilies) {
     Random random(seed + uint64_t(family));
-    Tally tally;
+    CoverageTally tally;
     for (uint64_t i = 0; i < count / 5; ++i) {
-      const View view = random_view(random);
+      const RandomView view = random_view(random);
       const std::vector<ClipTriangle> shape = i % 2 == 0 ? random_fan(random, family) : random_torus(random, family);
       compare(shape, 1, view, i % 4 < 2 ? 16 : 48, std::span(targets).subspan(i / 4 % targets.size(), 1), tally);
     }
@@ -223,9 +217,9 @@ TEST_CASE("A hundred thousand fans and closed meshes are covered as exact intege
 TEST_CASE("Clip coordinates that no camera makes are cut as exact integers say") {
   Random random(7000);
   const std::vector<std::string_view> targets = simd_targets();
-  Tally tally;
+  CoverageTally tally;
   for (uint64_t i = 0; i < 8000; ++i) {
-    const View view = random_view(random);
+    const RandomView view = random_view(random);
     compare(random_pair(random, Family::any_clip_space), 1, view, 64, std::span(targets).subspan(i % targets.size(), 1),
             tally);
   }
@@ -297,7 +291,7 @@ TEST_CASE("A closed mesh in front of the eye has as many front as back faces at 
   Random random(6000);
   const std::vector<Execution> all = executions();
   for (int i = 0; i < 5000; ++i) {
-    View view = random_view(random);
+    RandomView view = random_view(random);
     view.state.depth_clamp = true;  // nothing is cut away at near or far
     const Family families[] = {Family::inside, Family::clipped_by_view, Family::huge};
     std::vector<ClipTriangle> mesh = random_torus(random, families[i % 3]);

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "core/fp_env.h"
+#include "core/simd/simd_target.h"
 #include "core/small_float.h"
 #include "core/srgb.h"
 #include "oracle/blend.h"
-#include "core/simd/simd_target.h"
 #include "scenes/builtin/pcg32.h"
 #include "tests/catch.hpp"
 #include "tests/shading/blend_pixels.h"
@@ -22,18 +22,6 @@ using enum BlendFactor;
 using enum BlendEquation;
 
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
-
-Rgba grey(float x) { return {x, x, x, x}; }
-
-template <typename Body>
-void on_every_simd(const Body& body) {
-  for (const std::string_view simd : simd_targets()) {
-    INFO(simd);
-    body(simd);
-  }
-}
 
 /// What a store of grey leaves.
 Rgba stored(Format format, float x, std::string_view simd, HalfRound round = HalfRound::toward_zero) {

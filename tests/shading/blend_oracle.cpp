@@ -6,9 +6,9 @@
 #include <random>
 
 #include "core/half.h"
+#include "core/simd/simd_target.h"
 #include "core/small_float.h"
 #include "oracle/blend.h"
-#include "core/simd/simd_target.h"
 #include "tests/catch.hpp"
 #include "tests/shading/blend_pixels.h"
 
@@ -18,8 +18,7 @@ using namespace trueshade::testing;
 namespace {
 
 using Random = std::mt19937_64;
-constexpr NumericProfile kIdeal = NumericProfile::ideal, kMesa = NumericProfile::mesa_llvmpipe_22_3;
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
+constexpr NumericProfile kIdeal = NumericProfile::ideal;
 
 float uniform(Random& random, float low, float high) {
   return float(double(low) + double(high - low) * (double(random() >> 11) * 0x1p-53));
@@ -53,7 +52,6 @@ float stored_value_of(Random& random, Format format, int channel) {
 }
 
 /// A NaN is a NaN: a masked channel keeps the bits of its own.
-bool same(float a, float b) { return (a != a && b != b) || std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b); }
 
 BlendTerm random_term(Random& random) {
   return {BlendEquation(random() % kBlendEquations), BlendFactor(random() % kBlendFactors),

@@ -16,17 +16,13 @@ using enum BlendEquation;
 
 namespace {
 
-constexpr NumericProfile kMesa = NumericProfile::mesa_llvmpipe_22_3;
 constexpr NumericProfile kProfiles[] = {NumericProfile::ideal, kMesa};
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
 
 constexpr BlendTerm kReplace{}, kAlpha{add, src_alpha, one_minus_src_alpha};
 
 BlendTarget to(Format format, NumericProfile profile, HalfRound round = HalfRound::toward_zero) {
   return {format, profile, round};
 }
-
-Rgba grey(float x) { return {x, x, x, x}; }
 
 /// Red of one pixel.
 float red(const BlendState& state, const BlendTarget& target, const Rgba& source, const Rgba& stored,
@@ -44,14 +40,6 @@ void on_every_target(const Body& body) {
       INFO(simd << ", " << profile_name(profile));
       body(simd, profile);
     }
-}
-
-template <typename Body>
-void on_every_simd(const Body& body) {
-  for (const std::string_view simd : simd_targets()) {
-    INFO(simd);
-    body(simd);
-  }
 }
 
 }  // namespace

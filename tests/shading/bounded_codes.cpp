@@ -64,7 +64,7 @@ bool check_edges(Random& random, std::string_view preset, const Light& light, Sc
   for (int k = 0; k < 3; ++k) {
     const double most = one.value(28, 21, k);
     REQUIRE(most > 0.01);
-    code[k] = int(255.0 * std::min(most, 1.0) * between(random, 0.3, 0.99));
+    code[k] = int(255.0 * std::min(most, 1.0) * float_between(random, 0.3, 0.99));
     albedo[k] = float((code[k] + 0.5) / 255.0 / most);
     if (albedo[k] > 1.0f) code[k] -= 1, albedo[k] = float((code[k] + 0.5) / 255.0 / most);
   }
@@ -84,23 +84,24 @@ bool check_edges(Random& random, std::string_view preset, const Light& light, Sc
 
 Light far_light(Random& random, double brightest) {
   Light light;
-  light.position = glm::vec3(between(random, -1, 1), between(random, -1, 1), between(random, 200, 3000));
+  light.position =
+      glm::vec3(float_between(random, -1, 1), float_between(random, -1, 1), float_between(random, 200, 3000));
   const glm::vec3 at = light.position;
-  light.range = std::sqrt(at.x * at.x + at.y * at.y + at.z * at.z) * between(random, 1.2, 4.0);
-  light.color =
-      glm::vec3(between(random, 0.2, brightest), between(random, 0.2, brightest), between(random, 0.2, brightest));
+  light.range = std::sqrt(at.x * at.x + at.y * at.y + at.z * at.z) * float_between(random, 1.2, 4.0);
+  light.color = glm::vec3(float_between(random, 0.2, brightest), float_between(random, 0.2, brightest),
+                          float_between(random, 0.2, brightest));
   return light;
 }
 
 // In the highlight or beside it; the sheet in the cone, in its penumbra or where a point shines.
 Light phong_light(Random& random) {
   Light light = far_light(random, 0.95);
-  if (random() % 2 == 0) light.position.x += light.position.z * between(random, 0, 0.6);
+  if (random() % 2 == 0) light.position.x += light.position.z * float_between(random, 0, 0.6);
   light.range = 3.0f * light.position.z;
   if (random() % 4 == 0) return light;
   light.type = LightType::spot;
   light.cone_rad = 0.45f, light.penumbra_rad = 0.2f;
-  const double away = between(random, 0, 0.58) + std::atan2(double(light.position.x), double(light.position.z));
+  const double away = float_between(random, 0, 0.58) + std::atan2(double(light.position.x), double(light.position.z));
   light.direction = glm::vec3(float(-std::sin(away)), 0.0f, float(-std::cos(away)));
   return light;
 }
@@ -116,7 +117,7 @@ TEST_CASE("Codes of lights that bounds prove are those of their terms, and so ar
     while (scene.lights.size() < count) {
       Light light = random_light(random);
       if (random() % 4 != 0) light.type = LightType::point;
-      if (random() % 2 == 0) light.color *= between(random, 0, 0.5);
+      if (random() % 2 == 0) light.color *= float_between(random, 0, 0.5);
       if (random() % 16 == 0) light.color *= 20.0f;  // beyond what bounds are for
       scene.lights.push_back(light);
     }
@@ -126,7 +127,7 @@ TEST_CASE("Codes of lights that bounds prove are those of their terms, and so ar
         for (float& n : stream) n *= 1.5f;
     if (i % 4 == 2) scene.lights[random() % count].position = scene.camera.eye;
     if (i % 4 == 3)
-      for (size_t v = 0; v < mesh.color[0].size(); v += 7) mesh.color[random() % 3][v] = between(random, -2, 8);
+      for (size_t v = 0; v < mesh.color[0].size(); v += 7) mesh.color[random() % 3][v] = float_between(random, -2, 8);
     constexpr Format kTargets[] = {Format::rgba8, Format::rgba8, Format::rgb10_a2, Format::rgba16f};
     Pipeline p = blending_pipeline(i % 8 < 4 ? "light-volumes" : "redsdk", kTargets[i % 4]);
     if (i % 2 == 1) p.gbuffer.albedo.format = Format::rgba32f;

@@ -11,8 +11,8 @@
 #include "core/simd/simd_target.h"
 #include "scenes/pipeline/presets.h"
 #include "tests/catch.hpp"
-#include "tests/shading/light_sheet.h"
 #include "tests/shading/bounded_lanes.h"
+#include "tests/shading/light_sheet.h"
 
 using namespace trueshade;
 using namespace trueshade::testing;
@@ -27,7 +27,7 @@ bool lacks_kernels() {
 }
 
 glm::dvec3 any_direction(Random& random) {
-  const double z = between(random, -1, 1), turn = between(random, 0, 6.2831853), r = std::sqrt(1.0 - z * z);
+  const double z = float_between(random, -1, 1), turn = float_between(random, 0, 6.2831853), r = std::sqrt(1.0 - z * z);
   return {r * std::cos(turn), r * std::sin(turn), z};
 }
 
@@ -55,31 +55,33 @@ struct Hunt {
 
   Light light(Random& random) const {
     Light out;
-    for (int c = 0; c < 3; ++c) out.position[c] = between(random, -1, 1), out.color[c] = float(color);
-    out.color *= between(random, 0.98, 1);
-    out.range = phong ? 1e30f : between(random, 1, 1000);
+    for (int c = 0; c < 3; ++c) out.position[c] = float_between(random, -1, 1), out.color[c] = float(color);
+    out.color *= float_between(random, 0.98, 1);
+    out.range = phong ? 1e30f : float_between(random, 1, 1000);
     if (!cone) return out;
     out.type = LightType::spot;
     out.direction = glm::vec3(any_direction(random));
-    const double outer = between(random, -0.5, 0.9), slope = between(random, 16, 63);
+    const double outer = float_between(random, -0.5, 0.9), slope = float_between(random, 16, 63);
     out.cone_rad = float(std::acos(outer + 1.0 / slope));
     out.penumbra_rad = float(std::acos(outer)) - out.cone_rad;
     return out;
   }
 
   void make_pixel(Random& random, const Light& light, BoundedPixels& out, int lane) const {
-    const double reach = phong ? between(random, 0.5, 50) : double(light.range) * std::pow(between(random, 0, 0.99), 3);
+    const double reach =
+        phong ? float_between(random, 0.5, 50) : double(light.range) * std::pow(float_between(random, 0, 0.99), 3);
     glm::dvec3 toward = any_direction(random);
     if (cone) {
-      const double place = double(light.cone_rad) + double(light.penumbra_rad) * between(random, 0, 1);
+      const double place = double(light.cone_rad) + double(light.penumbra_rad) * float_between(random, 0, 1);
       toward = tilted(random, -glm::dvec3(light.direction), place);
     }
-    const glm::dvec3 n = tilted(random, toward, angle * between(random, 0, 1));
+    const glm::dvec3 n = tilted(random, toward, angle * float_between(random, 0, 1));
     const glm::dvec3 mirrored = 2.0 * dot(n, toward) * n - toward;
     set(out, lane, 0, glm::dvec3(light.position) - reach * toward);
     set(out, lane, 3, n);
-    set(out, lane, 6, tilted(random, mirrored, between(random, gleam[0], gleam[1])));
-    set(out, lane, 9, glm::dvec3(between(random, 0.9, 1), between(random, 0.9, 1), between(random, 0.9, 1)));
+    set(out, lane, 6, tilted(random, mirrored, float_between(random, gleam[0], gleam[1])));
+    set(out, lane, 9,
+        glm::dvec3(float_between(random, 0.9, 1), float_between(random, 0.9, 1), float_between(random, 0.9, 1)));
   }
 };
 
@@ -137,7 +139,7 @@ struct SumErrors {
     std::vector<Light> out{hunt.light(random)};
     while (out.size() < count) {
       out.push_back(out[0]);
-      out.back().position += out[0].range * glm::vec3(any_direction(random)) * between(random, 0, 0.5);
+      out.back().position += out[0].range * glm::vec3(any_direction(random)) * float_between(random, 0, 0.5);
     }
     return out;
   }
@@ -240,7 +242,7 @@ TEST_CASE("Estimates of bounded sums are as near to the sums as their proof says
 TEST_CASE("Bounded sums have the codes of the sums at the ends of the floats") {
   const LightModel model = preset_pipeline("many-lights")->light_model;
   Random random(820);
-  const auto size = [&] { return std::ldexp(between(random, 1, 2), int(random() % 300) - 160); };
+  const auto size = [&] { return std::ldexp(float_between(random, 1, 2), int(random() % 300) - 160); };
   long proved = 0;
   for (int i = 0; i < 10000; ++i) {
     const Hunt hunt = {"", false, 0.5, 1.6, {0, 3}, false};
@@ -288,7 +290,7 @@ TEST_CASE("Bounded sums have the codes of the sums at the ends of the floats") {
 TEST_CASE("Bounded codes stay those of the terms at the ends of the floats") {
   if (lacks_kernels()) return;
   Random random(818);
-  const auto size = [&] { return std::ldexp(between(random, 1, 2), int(random() % 300) - 160); };
+  const auto size = [&] { return std::ldexp(float_between(random, 1, 2), int(random() % 300) - 160); };
   for (int i = 0; i < 20000; ++i) {
     const Hunt& hunt = kHunts[random() % std::size(kHunts)];
     const LightModel model = model_of(hunt.phong);
@@ -298,7 +300,7 @@ TEST_CASE("Bounded codes stay those of the terms at the ends of the floats") {
     if (random() % 4 == 0) light.color[int(random() % 3)] = std::min(size(), 1e18f);
     if (random() % 8 == 0) light.color = glm::vec3(1e18f);
     if (random() % 8 == 0) light.cone_rad = 3.1416f, light.penumbra_rad = 0.0f;
-    if (random() % 8 == 0) light.penumbra_rad = between(random, 0, 0.001);
+    if (random() % 8 == 0) light.penumbra_rad = float_between(random, 0, 0.001);
     if (light.cone_rad + light.penumbra_rad > 3.1416f) light.cone_rad = 3.1416f - light.penumbra_rad;  // as validated
     const LightTable table = make_light_table({&light, 1}, model, Camera());
     BoundedPixels pixels;

@@ -11,7 +11,7 @@ using namespace trueshade;
 
 namespace {
 
-const std::vector<std::string> kCounts{"light.count"};
+const std::vector<std::string> kCountPlane{"light.count"};
 
 Pipeline summing_pipeline(std::string_view preset, Format target) {
   Pipeline p = *preset_pipeline(preset);
@@ -35,11 +35,11 @@ void add_lights(Random& random, size_t count, double brightness, Scene& scene) {
 
 // What the kernels may be troubled by: surfaces brighter than white, normals of any length, some that face away.
 void trouble(Random& random, Mesh& mesh) {
-  const float size = between(random, 0.2, 1.9);
+  const float size = float_between(random, 0.2, 1.9);
   for (size_t i = 0; i < mesh.normal[0].size(); ++i) {
     for (auto& stream : mesh.normal) stream[i] *= size;
     if (random() % 8 == 0) mesh.normal[2][i] = -mesh.normal[2][i];
-    if (random() % 4 == 0) mesh.color[random() % 3][i] = between(random, -0.5, 8);
+    if (random() % 4 == 0) mesh.color[random() % 3][i] = float_between(random, -0.5, 8);
   }
 }
 
@@ -51,7 +51,7 @@ TEST_CASE("Codes that bounds prove are those of the sums, and so are the lights 
   for (int i = 0; i < 48; ++i) {
     Scene scene = sheet(random);
     if (i % 3 == 1) trouble(random, scene.meshes[0]);
-    add_lights(random, 32 + size_t(random() % 500), between(random, 0.5, 8), scene);
+    add_lights(random, 32 + size_t(random() % 500), float_between(random, 0.5, 8), scene);
     if (i % 4 == 1) scene.lights[random() % scene.lights.size()].position = scene.camera.eye;
     const Format targets[] = {Format::rgba8, Format::rgb10_a2, Format::srgb8_a8};
     Pipeline p = summing_pipeline("touchdesigner", targets[i % 3]);
@@ -59,10 +59,10 @@ TEST_CASE("Codes that bounds prove are those of the sums, and so are the lights 
     if (i % 5 == 2) p.light_model.viewer = Viewer::infinite;
     if (i % 5 == 3) p.light_model.order = TermOrder::factored;
     const PreparedScene prepared(scene);
-    const Frame sums = render_frame(prepared, p, {.light_culling = false, .bounded_codes = false}, kCounts);
+    const Frame sums = render_frame(prepared, p, {.light_culling = false, .bounded_codes = false}, kCountPlane);
     for (const std::string_view simd : simd_targets()) {
       INFO("scene " << i << ", " << simd);
-      const Frame bounded = render_frame(prepared, p, {.simd = simd}, kCounts);
+      const Frame bounded = render_frame(prepared, p, {.simd = simd}, kCountPlane);
       CHECK(image_hash(bounded.color) == image_hash(sums.color));
       CHECK(image_hash(bounded.aovs[0].image) == image_hash(sums.aovs[0].image));
       CHECK(bounded.stats.lit_pixel_lights == sums.stats.lit_pixel_lights);
@@ -85,7 +85,7 @@ TEST_CASE("So are those of sums under lights with a linear window, among lights 
     while (scene.lights.size() < count) {
       Light light = random_light(random);
       if (i % 2 == 0) light.type = LightType::point;
-      light.color *= float(between(random, 0.5, 8)) / float(count);
+      light.color *= float(float_between(random, 0.5, 8)) / float(count);
       if (i % 8 == 6) light.range = 1000.0f;
       scene.lights.push_back(light);
     }
@@ -98,14 +98,14 @@ TEST_CASE("So are those of sums under lights with a linear window, among lights 
     if (i % 11 == 5) p.light_model.global_ambient = glm::vec3(0.1f);
     if (i % 13 == 6) p.light_model.specular_color = {0.0f, 0.5f, 4.0f};
     const PreparedScene prepared(scene);
-    const Frame sums = render_frame(prepared, p, {.light_culling = false, .bounded_codes = false}, kCounts);
+    const Frame sums = render_frame(prepared, p, {.light_culling = false, .bounded_codes = false}, kCountPlane);
     for (const std::string_view simd : simd_targets()) {
       INFO("scene " << i << ", " << simd);
-      const Frame bounded = render_frame(prepared, p, {.tile = i % 2 == 0 ? 0 : 8, .simd = simd}, kCounts);
+      const Frame bounded = render_frame(prepared, p, {.tile = i % 2 == 0 ? 0 : 8, .simd = simd}, kCountPlane);
       CHECK(image_hash(bounded.color) == image_hash(sums.color));
       CHECK(image_hash(bounded.aovs[0].image) == image_hash(sums.aovs[0].image));
       CHECK(bounded.stats.lit_pixel_lights == sums.stats.lit_pixel_lights);
-      const Frame added = render_frame(prepared, p, {.simd = simd, .bounded_codes = false}, kCounts);
+      const Frame added = render_frame(prepared, p, {.simd = simd, .bounded_codes = false}, kCountPlane);
       otherwise += bounded.stats.evaluated_pixel_lights != added.stats.evaluated_pixel_lights;
       ++frames;
     }

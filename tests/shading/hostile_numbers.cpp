@@ -15,10 +15,11 @@ namespace {
 
 using testing::fault_of;
 
-constexpr float kInf = std::numeric_limits<float>::infinity();
-constexpr float kValues[] = {
-    0.0f,    -0.0f, 1e-45f, 1.17549435e-38f, 1e-30f,        1.0f, 0.3f,  -1.0f,
-    8192.0f, 1e18f, 1e30f,  -1e30f,          3.4028235e38f, kInf, -kInf, std::numeric_limits<float>::quiet_NaN()};
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
+constexpr float kValues[] = {0.0f,          -0.0f,     1e-45f,     1.17549435e-38f,
+                             1e-30f,        1.0f,      0.3f,       -1.0f,
+                             8192.0f,       1e18f,     1e30f,      -1e30f,
+                             3.4028235e38f, kInfinite, -kInfinite, std::numeric_limits<float>::quiet_NaN()};
 
 /// A cube on a floor, seen from above, under one light of each type.
 Scene small_scene() {

@@ -50,7 +50,7 @@ TEST_CASE("Row 56: so do other light models, term by term") {
     model.renormalize = random() % 2 == 0;
     model.specular_masked = random() % 2 == 0;
     model.shininess = shininesses[size_t(i) % std::size(shininesses)];
-    model.specular_color = {between(random, 0, 1), between(random, 0, 1), between(random, 0, 1)};
+    model.specular_color = {float_between(random, 0, 1), float_between(random, 0, 1), float_between(random, 0, 1)};
     model.falloff = Falloff(random() % 2);
     model.order = TermOrder(random() % 2);
     model.alpha_from_albedo = random() % 2 == 0;

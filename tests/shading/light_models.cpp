@@ -27,13 +27,13 @@ Scene mixed_sheets(Random& random) {
   append_texel(TextureFormat::rgba32f, {kOcclusionTexel, 0.5f, 0.5f, 1.0f}, scene.textures[0].levels[0].bytes);
   for (size_t i = 0; i < 4; ++i) {
     Material& m = scene.materials[i];
-    m.specular_color = {between(random, 0, 1), between(random, 0, 1), between(random, 0, 1)};
-    m.emission = {between(random, 0, 0.3), 0, between(random, 0, 0.3)};
+    m.specular_color = {float_between(random, 0, 1), float_between(random, 0, 1), float_between(random, 0, 1)};
+    m.emission = {float_between(random, 0, 0.3), 0, float_between(random, 0, 0.3)};
     m.shininess = shininess[i];
-    m.metallic = i == 0 ? 0.0f : between(random, 0, 1);
+    m.metallic = i == 0 ? 0.0f : float_between(random, 0, 1);
     m.roughness = roughness[i];
     if (i % 2 == 0) m.occlusion_map.texture = 0;
-    m.occlusion_strength = between(random, 0, 1);
+    m.occlusion_strength = float_between(random, 0, 1);
     Instance instance;
     instance.material = uint32_t(i);
     instance.world_from_object[3] = {0.13f * float(i), -0.07f * float(i), 0.05f * float(i)};
@@ -195,7 +195,7 @@ TEST_CASE("Lambert's lights over torn sheets of any size are culled block by blo
     const float scale = std::ldexp(1.0f, exponent);
     Scene scene = sheet(random);
     for (auto& stream : scene.meshes[0].normal)
-      for (float& value : stream) value = between(random, -1, 1);
+      for (float& value : stream) value = float_between(random, -1, 1);
     for (int light = 0; light < 150; ++light) scene.lights.push_back(random_light(random));
     for (int axis = 0; axis < 3; ++axis) scene.instances[0].world_from_object[axis][axis] = scale;
     for (Light& light : scene.lights) light.position *= scale, light.range *= 0.3f * scale;

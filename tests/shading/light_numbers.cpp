@@ -25,7 +25,7 @@ Scene under_lights(uint64_t seed, int count) {
   return scene;
 }
 
-Image drawn(const PreparedScene& scene, const Pipeline& pipeline, std::string_view simd, bool culling) {
+Image drawn_lit(const PreparedScene& scene, const Pipeline& pipeline, std::string_view simd, bool culling) {
   return render_frame(scene, pipeline, {.simd = simd, .light_culling = culling}).color;
 }
 
@@ -42,9 +42,9 @@ TEST_CASE("0, 1, 757 and 100,000 lights give one image, culled or not, under eve
         pipeline.target = strategy % 2 == 0 ? row.pipeline.target : Format::rgba32f;
         pipeline.width = count > 1000 ? 12 : 32, pipeline.height = count > 1000 ? 8 : 24;
         INFO(row.name << ", " << kStrategyNames[strategy] << ", " << count << " lights");
-        const Image expected = drawn(prepared, pipeline, "best", false);
-        CHECK(drawn(prepared, pipeline, "best", true).texels == expected.texels);
-        if (count <= 1000) CHECK(drawn(prepared, pipeline, "scalar", true).texels == expected.texels);
+        const Image expected = drawn_lit(prepared, pipeline, "best", false);
+        CHECK(drawn_lit(prepared, pipeline, "best", true).texels == expected.texels);
+        if (count <= 1000) CHECK(drawn_lit(prepared, pipeline, "scalar", true).texels == expected.texels);
       }
   }
 }
@@ -58,7 +58,7 @@ TEST_CASE("Lists of many lights, region by region, change no bit on any target, 
     Pipeline pipeline = loop_pipeline(row.name);
     pipeline.target = Format::rgba32f;
     pipeline.width = 48, pipeline.height = 40;
-    const Image expected = drawn(prepared, pipeline, "best", false);
+    const Image expected = drawn_lit(prepared, pipeline, "best", false);
     for (const std::string_view simd : simd_targets())
       for (const int tile : {8, 64}) {
         INFO(row.name << ", " << simd << ", tile " << tile);
@@ -76,7 +76,7 @@ TEST_CASE("City under 20,000 lights has one image, culled or not, and its lists 
       pipeline.target = target;
       pipeline.width = 80, pipeline.height = 72;
       INFO(preset << ", " << info(target).name);
-      const Image expected = drawn(prepared, pipeline, "best", false);
+      const Image expected = drawn_lit(prepared, pipeline, "best", false);
       for (const std::string_view simd : simd_targets()) {
         const Frame culled = render_frame(prepared, pipeline, {.simd = simd});
         CHECK(culled.color.texels == expected.texels);
@@ -91,7 +91,7 @@ TEST_CASE("Tables that a thread keeps serve scenes of more lights, of fewer and 
   Pipeline pipeline = loop_pipeline(presets().front().name);
   pipeline.width = 24, pipeline.height = 16;
   for (const PreparedScene& scene : scenes)
-    CHECK(drawn(scene, pipeline, "best", true).texels == drawn(scene, pipeline, "best", false).texels);
+    CHECK(drawn_lit(scene, pipeline, "best", true).texels == drawn_lit(scene, pipeline, "best", false).texels);
 }
 
 TEST_CASE("Rows, groups and outlines that a thread keeps follow every number of a light, the model and the extents") {
@@ -109,8 +109,8 @@ TEST_CASE("Rows, groups and outlines that a thread keeps follow every number of 
   const auto follows = [&](const char* what) {
     INFO(what);
     Image fresh;  // by a thread that keeps nothing
-    std::thread([&] { fresh = drawn(prepared, pipeline, "best", true); }).join();
-    CHECK(drawn(prepared, pipeline, "best", true).texels == fresh.texels);
+    std::thread([&] { fresh = drawn_lit(prepared, pipeline, "best", true); }).join();
+    CHECK(drawn_lit(prepared, pipeline, "best", true).texels == fresh.texels);
     seen += fresh.texels != before.texels;
     before = fresh;
   };

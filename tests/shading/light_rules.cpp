@@ -224,7 +224,8 @@ TEST_CASE("lights in the plane of a surface, and a last bit above and below it, 
     Mesh mesh;
     for (uint32_t i = 0; i < 24; ++i) {
       const float x = float(i % 6) * 0.83f - 2.1f, y = float(i / 6) * 0.9f - 1.4f;
-      const float normal[3] = {between(random, -1, 1), between(random, -1, 1), between(random, -1, 1)};
+      const float normal[3] = {float_between(random, -1, 1), float_between(random, -1, 1),
+                               float_between(random, -1, 1)};
       for (const auto& [dx, dy] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
         const float position[3] = {x + 0.06f * float(dx), y + 0.06f * float(dy), 0.0f};
         for (size_t k = 0; k < 3; ++k) mesh.position[k].push_back(position[k]);
@@ -240,7 +241,7 @@ TEST_CASE("lights in the plane of a surface, and a last bit above and below it, 
       if (!surface.covered(x, y)) continue;
       const Vec p = surface.pixel(x, y).position, n = surface.pixel(x, y).normal;
       const glm::dvec3 normal = glm::dvec3(n.x, n.y, n.z) / double(length);
-      const glm::dvec3 a(between(random, -1, 1), between(random, -1, 1), between(random, -1, 1));
+      const glm::dvec3 a(float_between(random, -1, 1), float_between(random, -1, 1), float_between(random, -1, 1));
       const glm::dvec3 along = a - normal * (glm::dot(a, normal) / glm::dot(normal, normal));
       Light light;
       light.position = glm::vec3(glm::dvec3(p.x, p.y, p.z) + along);

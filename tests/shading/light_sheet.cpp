@@ -12,7 +12,7 @@
 namespace trueshade {
 
 using Random = std::mt19937_64;
-float between(Random& random, double low, double high) {
+float float_between(Random& random, double low, double high) {
   return float(low + (high - low) * double(random() >> 11) * 0x1p-53);
 }
 
@@ -23,11 +23,12 @@ Scene sheet(Random& random) {
   Mesh mesh;
   for (uint32_t y = 0; y < 9; ++y)
     for (uint32_t x = 0; x < 9; ++x) {
-      const float position[3] = {float(x) / 2 - 2, float(y) / 2 - 2, between(random, -0.4, 0.4)};
-      const float normal[3] = {between(random, -0.5, 0.5), between(random, -0.5, 0.5), between(random, 0.5, 1)};
+      const float position[3] = {float(x) / 2 - 2, float(y) / 2 - 2, float_between(random, -0.4, 0.4)};
+      const float normal[3] = {float_between(random, -0.5, 0.5), float_between(random, -0.5, 0.5),
+                               float_between(random, 0.5, 1)};
       for (size_t k = 0; k < 3; ++k) mesh.position[k].push_back(position[k]);
       for (size_t k = 0; k < 3; ++k) mesh.normal[k].push_back(normal[k]);
-      for (size_t k = 0; k < 4; ++k) mesh.color[k].push_back(between(random, 0, 1));
+      for (size_t k = 0; k < 4; ++k) mesh.color[k].push_back(float_between(random, 0, 1));
       if (x == 8 || y == 8) continue;
       const uint32_t i = y * 9 + x;
       for (const uint32_t index : {i, i + 1, i + 9, i + 1, i + 10, i + 9}) mesh.indices.push_back(index);
@@ -40,13 +41,13 @@ Scene sheet(Random& random) {
 
 Light random_light(Random& random) {
   Light light;
-  light.position = {between(random, -2.5, 2.5), between(random, -2.5, 2.5), between(random, -0.5, 2)};
-  light.color = {between(random, 0, 2), between(random, 0, 2), between(random, 0, 2)};
-  light.range = between(random, 0.2, 3);
-  light.attenuation = {1, between(random, 0, 2), between(random, 0, 3)};
-  const Vec d = unit({between(random, -1, 1), between(random, -1, 1), between(random, -1, 0)});
+  light.position = {float_between(random, -2.5, 2.5), float_between(random, -2.5, 2.5), float_between(random, -0.5, 2)};
+  light.color = {float_between(random, 0, 2), float_between(random, 0, 2), float_between(random, 0, 2)};
+  light.range = float_between(random, 0.2, 3);
+  light.attenuation = {1, float_between(random, 0, 2), float_between(random, 0, 3)};
+  const Vec d = unit({float_between(random, -1, 1), float_between(random, -1, 1), float_between(random, -1, 0)});
   light.direction = {d.x, d.y, d.z};
-  light.ambient = {between(random, 0, 0.2), between(random, 0, 0.2), between(random, 0, 0.2)};
+  light.ambient = {float_between(random, 0, 0.2), float_between(random, 0, 0.2), float_between(random, 0, 0.2)};
   switch (random() % 12) {
     case 0:
       light.type = LightType::ambient;
@@ -66,8 +67,8 @@ Light random_light(Random& random) {
     case 5:
     case 6:
       light.type = LightType::spot;
-      light.cone_rad = between(random, 0, 1.2);
-      light.penumbra_rad = random() % 3 == 0 ? 0.0f : between(random, 0, 1.9);
+      light.cone_rad = float_between(random, 0, 1.2);
+      light.penumbra_rad = random() % 3 == 0 ? 0.0f : float_between(random, 0, 1.9);
       light.spot_exponent = float(random() % 4) * (random() % 4 == 0 ? 0.75f : 1.0f);
       if (random() % 8 == 0) light.cone_rad = 3.14159265f, light.penumbra_rad = 0;
       break;

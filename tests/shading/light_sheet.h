@@ -10,7 +10,7 @@
 namespace trueshade {
 
 using Random = std::mt19937_64;
-float between(Random& random, double low, double high);
+float float_between(Random& random, double low, double high);
 
 /// Red of every occlusion map.
 inline constexpr float kOcclusionTexel = 0.3f;

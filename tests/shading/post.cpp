@@ -5,8 +5,8 @@
 #include <cstring>
 #include <random>
 
-#include "core/srgb.h"
 #include "core/simd/simd_target.h"
+#include "core/srgb.h"
 #include "scenes/pipeline/presets.h"
 #include "scenes/scene.h"
 #include "shading/frame.h"
@@ -34,7 +34,7 @@ Picture noise(int width, int height, uint64_t seed, double most) {
   return out;
 }
 
-Frame drawn(const Scene& scene, const Pipeline& pipeline, const Execution& execution = {}) {
+Frame frame_with_post(const Scene& scene, const Pipeline& pipeline, const Execution& execution = {}) {
   return render_frame(scene, pipeline, execution);
 }
 
@@ -60,7 +60,7 @@ TEST_CASE("Supersampling is the box average of the larger render", "[post]") {
     Pipeline pipeline = small(31, 23), large = small(31 * samples, 23 * samples);
     pipeline.post.samples = samples;
     pipeline.post.output = Format::rgba32f;
-    const Image got = drawn(scene, pipeline).color, from = drawn(scene, large).color;
+    const Image got = frame_with_post(scene, pipeline).color, from = frame_with_post(scene, large).color;
     for (int y = 0; y < 23; ++y)
       for (int x = 0; x < 31; ++x)
         for (int c = 0; c < 4; ++c) {
@@ -88,7 +88,7 @@ TEST_CASE("A pixel half covered by a white square comes out as exactly one half"
   pipeline.post.output = Format::rgba32f;
   for (const int samples : {2, 4, 8}) {
     pipeline.post.samples = samples;
-    const Image image = drawn(scene, pipeline).color;
+    const Image image = frame_with_post(scene, pipeline).color;
     for (int c = 0; c < 4; ++c) {
       CHECK(value_at(image, 5, 5, c) == 1.0f);
       CHECK(value_at(image, 7, 5, c) == 0.5f);
@@ -268,7 +268,7 @@ TEST_CASE("Light markers are discs of the light's colour where nothing is nearer
   Pipeline pipeline = small(80, 80);
   pipeline.post.marker_radius = 0.5f;
   pipeline.post.output = Format::rgba32f;
-  const Image image = drawn(scene, pipeline).color;
+  const Image image = frame_with_post(scene, pipeline).color;
   CHECK(value_at(image, 40, 40, 0) == 1.0f);
   CHECK(value_at(image, 40, 40, 1) == 0.25f);
   CHECK(value_at(image, 40, 40, 3) == 1.0f);
@@ -288,7 +288,7 @@ TEST_CASE("The chain gives one set of bits, however it is drawn", "[post]") {
   pipeline.post.tone_map = PostChain::ToneMap::reinhard;
   pipeline.post.encode = PostChain::Encode::srgb;
   pipeline.post.edge_filter = true;
-  const Image first = drawn(scene, pipeline).color;
+  const Image first = frame_with_post(scene, pipeline).color;
   CHECK(first.format == Format::rgba8);
   CHECK(first.width == 90);
   for (const std::string_view simd : simd_targets())
@@ -298,6 +298,6 @@ TEST_CASE("The chain gives one set of bits, however it is drawn", "[post]") {
       execution.tile = tile;
       execution.threads = tile == 8 ? 3 : 1;
       execution.shuffle_tiles = execution.light_culling = execution.geometry_culling = tile == 8;
-      CHECK(drawn(scene, pipeline, execution).color.texels == first.texels);
+      CHECK(frame_with_post(scene, pipeline, execution).color.texels == first.texels);
     }
 }

@@ -19,7 +19,7 @@ using namespace trueshade;
 
 namespace {
 
-constexpr float kInf = std::numeric_limits<float>::infinity(), kLeast = 0x1p-149f, kMost = 0x1.fffffep127f;
+constexpr float kInfinity = std::numeric_limits<float>::infinity(), kLeast = 0x1p-149f, kMost = 0x1.fffffep127f;
 
 /// x^p, right to 192 bits.
 class RealPower {
@@ -38,9 +38,9 @@ class RealPower {
   /// How far `computed` lies from it, in ulps of the float it lies in: of the least there is below 2^-126, of the
   /// largest from 2^127 on, where infinity counts as 2^128.
   double ulps_off(float computed) {
-    if (mpfr_cmp_si_2exp(real_, 1, 128) >= 0) return computed == kInf ? 0.0 : HUGE_VAL;
+    if (mpfr_cmp_si_2exp(real_, 1, 128) >= 0) return computed == kInfinity ? 0.0 : HUGE_VAL;
     const long ulp = mpfr_zero_p(real_) ? -149 : std::clamp<long>(mpfr_get_exp(real_) - 24, -149, 104);
-    if (computed == kInf)
+    if (computed == kInfinity)
       mpfr_set_ui_2exp(other_, 1, 128, MPFR_RNDN);
     else
       mpfr_set_flt(other_, computed, MPFR_RNDN);
@@ -66,7 +66,7 @@ class RealPower {
 };
 
 /// The largest error of some powers, and where.
-struct Worst {
+struct WorstPower {
   double ulps = 0, share = 0, p = 0;
   float x = 0, computed = 0;
   void see(double error, float base, double exponent, float found) {
@@ -100,7 +100,7 @@ float base_of(Random& random, uint64_t i) {
 double telling_exponent(Random& random, float x) {
   const double log = std::log2(double(x));
   constexpr double kEdges[] = {-150, -149.5, -149, -148.5, -126, -125.99999, 127.9999999, 128, -1, 1, -24, 0.5};
-  const double t = random() % 3 == 0 ? kEdges[random() % std::size(kEdges)] : between(random, -151, 129);
+  const double t = random() % 3 == 0 ? kEdges[random() % std::size(kEdges)] : float_between(random, -151, 129);
   return std::fabs(log) > 0 ? std::clamp(std::fabs(t / log), 0.0, 1e18) : 1e18;
 }
 
@@ -108,10 +108,10 @@ double telling_exponent(Random& random, float x) {
 constexpr double kExponents[] = {1e-38,  1e-7,   0.01,   0.25,   1 / 2.4, 0.5,   0.75, 1.5,    2.5, 2.75, 7.5, 33.3,
                                  127.01, 333.25, 1000.5, 8191.5, 8193,    65537, 1e5,  1.7e7f, 1e9, 1e12, 1e18};
 
-Worst worst_real_powers(uint64_t count, uint64_t seed) {
+WorstPower worst_real_powers(uint64_t count, uint64_t seed) {
   Random random(seed);
   RealPower real;
-  Worst worst;
+  WorstPower worst;
   for (uint64_t i = 0; i < count; ++i) {
     const float x = base_of(random, i);
     const double p =
@@ -126,18 +126,18 @@ Worst worst_real_powers(uint64_t count, uint64_t seed) {
 }
 
 /// Of integer exponents, as a vector of one exponent computes them.
-Worst worst_integer_powers(int bases, uint64_t seed) {
+WorstPower worst_integer_powers(int bases, uint64_t seed) {
   constexpr int kStep = 16;
   Random random(seed);
   RealPower real;
-  Worst worst;
+  WorstPower worst;
   std::vector<float> x(kStep), out(kStep);
   for (int p = 0; p <= 8192; ++p)
     for (int from = 0; from < bases; from += kStep) {
       for (int i = 0; i < kStep; ++i) {
         x[size_t(i)] = base_of(random, random());
         // Most powers of most floats are 0 or infinite: every other base has one between.
-        if (i % 2 == 0 && p > 1) x[size_t(i)] = float(std::exp2(between(random, -150, 128) / double(p)));
+        if (i % 2 == 0 && p > 1) x[size_t(i)] = float(std::exp2(float_between(random, -150, 128) / double(p)));
       }
       testing::raise(x, float(p), false, out);
       for (size_t i = 0; i < x.size(); ++i) {
@@ -156,7 +156,7 @@ constexpr double kAtMost = 0.5 + 0x1p-15;
 TEST_CASE("pow of real exponents is within 0.50004 ulp of MPFR's over all positive floats and exponents",
           "[pow][slow]") {
   const FpScope fp;
-  const Worst worst = worst_real_powers(600000, 62);
+  const WorstPower worst = worst_real_powers(600000, 62);
   CAPTURE(worst.ulps, worst.x, worst.p, worst.computed, std::log2(worst.share));
   CHECK(worst.ulps <= kAtMost);
   CHECK(worst.ulps > 0.49);
@@ -165,7 +165,7 @@ TEST_CASE("pow of real exponents is within 0.50004 ulp of MPFR's over all positi
 
 TEST_CASE("pow of real exponents at 12 million bases and exponents", "[pow][long]") {
   const FpScope fp;
-  const Worst worst = worst_real_powers(12000000, 65);
+  const WorstPower worst = worst_real_powers(12000000, 65);
   CAPTURE(worst.ulps, worst.x, worst.p, worst.computed, std::log2(worst.share));
   WARN("largest error " << worst.ulps << " ulp, of the double 2^" << std::log2(worst.share));
   CHECK(worst.ulps <= kAtMost);
@@ -174,7 +174,7 @@ TEST_CASE("pow of real exponents at 12 million bases and exponents", "[pow][long
 
 TEST_CASE("binary powering is within 0.50004 ulp of MPFR's for every integer exponent up to 8192", "[pow]") {
   const FpScope fp;
-  const Worst worst = worst_integer_powers(48, 63);
+  const WorstPower worst = worst_integer_powers(48, 63);
   CAPTURE(worst.ulps, worst.x, worst.p, worst.computed);
   CHECK(worst.ulps <= kAtMost);
   CHECK(worst.ulps > 0.49);
@@ -182,7 +182,7 @@ TEST_CASE("binary powering is within 0.50004 ulp of MPFR's for every integer exp
 
 TEST_CASE("binary powering of 1,024 bases by every integer exponent", "[pow][long]") {
   const FpScope fp;
-  const Worst worst = worst_integer_powers(1024, 66);
+  const WorstPower worst = worst_integer_powers(1024, 66);
   CAPTURE(worst.ulps, worst.x, worst.p, worst.computed);
   WARN("largest error " << worst.ulps << " ulp");
   CHECK(worst.ulps <= kAtMost);
@@ -193,7 +193,7 @@ TEST_CASE("pow at the ends: of 0, 1 and infinity, by 0, and where a square or a 
   for (const double p : kExponents) {
     CHECK(power(0.0, p) == 0.0);
     CHECK(power(1.0, p) == 1.0);
-    CHECK(power(double(kInf), p) == double(kInf));
+    CHECK(power(double(kInfinity), p) == double(kInfinity));
     CHECK(float(power(double(kLeast), p)) >= 0.0f);
   }
   for (int k = -74; k < 64; ++k) {
@@ -201,13 +201,13 @@ TEST_CASE("pow at the ends: of 0, 1 and infinity, by 0, and where a square or a 
     CHECK(float(power(std::ldexp(9.0, 2 * k), 0.5)) == std::ldexp(3.0f, k));
   }
   std::vector<float> x(16, 0.0f), out(16);
-  x[1] = 1.0f, x[2] = kInf, x[3] = kLeast, x[4] = kMost;
+  x[1] = 1.0f, x[2] = kInfinity, x[3] = kLeast, x[4] = kMost;
   for (const std::string_view simd : simd_targets()) {
     const SimdScope scope(simd);
     testing::raise(x, 0.0f, false, out);
     for (const float one : out) CHECK(one == 1.0f);
     testing::raise(x, 8192.0f, false, out);
-    CHECK(std::vector<float>(out.begin(), out.begin() + 5) == std::vector<float>{0, 1, kInf, 0, kInf});
+    CHECK(std::vector<float>(out.begin(), out.begin() + 5) == std::vector<float>{0, 1, kInfinity, 0, kInfinity});
   }
 }
 

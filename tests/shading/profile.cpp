@@ -5,8 +5,8 @@
 #include <random>
 
 #include "core/blend_state.h"
-#include "raster/visibility/coverage_count.h"
 #include "core/simd/simd_target.h"
+#include "raster/visibility/coverage_count.h"
 #include "scenes/pipeline/presets.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"
@@ -17,7 +17,7 @@ using namespace trueshade::testing;
 
 namespace {
 
-constexpr NumericProfile kMesa = NumericProfile::mesa_llvmpipe_22_3;
+constexpr NumericProfile kMesaProfile = NumericProfile::mesa_llvmpipe_22_3;
 
 /// 256 squares of 16 x 16 pixels, square k of albedo k / 255.
 Scene ramp() {
@@ -60,7 +60,7 @@ TEST_CASE(
     "profile") {
   for (const Execution& execution : executions()) {
     INFO(named(execution));
-    const std::vector<float> ideal = fetched(NumericProfile::ideal, execution), mesa = fetched(kMesa, execution);
+    const std::vector<float> ideal = fetched(NumericProfile::ideal, execution), mesa = fetched(kMesaProfile, execution);
     int different = 0;
     for (size_t k = 0; k < 256; ++k) {
       CHECK(ideal[k] == float(double(k) / 255.0));
@@ -76,7 +76,7 @@ TEST_CASE("Without an 8-bit plane and where float32 snaps alike, the profiles dr
   Pipeline pipeline = window_pipeline();
   const std::vector<Corners> triangles = {{{{10.25, 10.5}, {200.75, 20.125}, {30.5, 220}}}};
   const Planes ideal = drawn(window_scene(triangles), pipeline, {});
-  pipeline.profile = kMesa;
+  pipeline.profile = kMesaProfile;
   CHECK(drawn(window_scene(triangles), pipeline, {}) == ideal);
 }
 
@@ -95,7 +95,7 @@ TEST_CASE("The profile's snapping is float32's with one fused multiply-add, on e
   std::vector<uint16_t> first;
   for (const Execution& execution : executions()) {
     std::vector<uint16_t> counts(800 * 600);
-    count_coverage(triangles, {}, 800, 600, execution, counts, kMesa);
+    count_coverage(triangles, {}, 800, 600, execution, counts, kMesaProfile);
     if (first.empty()) first = counts;
     INFO(named(execution));
     CHECK(counts == first);
@@ -111,8 +111,8 @@ TEST_CASE("Factors, equations and profiles are spelled as the enumerators") {
   CHECK(kBlendFactorNames[size_t(BlendFactor::dst_color)] == "dst_color");
   CHECK(kBlendEquationNames[size_t(BlendEquation::reverse_subtract)] == "reverse_subtract");
   CHECK(kBlendEquationNames[size_t(BlendEquation::max)] == "max");
-  for (const NumericProfile profile : {NumericProfile::ideal, kMesa})
+  for (const NumericProfile profile : {NumericProfile::ideal, kMesaProfile})
     CHECK(profile_from_name(profile_name(profile)) == profile);
-  CHECK(profile_name(kMesa) == "mesa-llvmpipe-22.3");
+  CHECK(profile_name(kMesaProfile) == "mesa-llvmpipe-22.3");
   CHECK(!profile_from_name("mesa"));
 }

@@ -21,8 +21,8 @@ using namespace trueshade;
 
 namespace {
 
-constexpr Strategy kStrategies[] = {Strategy::forward_multipass, Strategy::forward_loop, Strategy::deferred_volumes,
-                                    Strategy::deferred_loop};
+constexpr Strategy kEachStrategy[] = {Strategy::forward_multipass, Strategy::forward_loop, Strategy::deferred_volumes,
+                                      Strategy::deferred_loop};
 
 /// many-lights with RGBA32F planes, lights as quads.
 Pipeline float_planes(Strategy strategy, Format target) {
@@ -142,7 +142,7 @@ TEST_CASE("Every strategy draws one image, whatever the culling, threads, tiles,
                              {LightExtent::box, CullFace::front, false, true},
                              {LightExtent::sphere, CullFace::back, false, true},
                              {LightExtent::box, CullFace::none, true, true}};
-  for (const Strategy strategy : kStrategies)
+  for (const Strategy strategy : kEachStrategy)
     for (const Volumes& v : volumes) {
       if (strategy != Strategy::deferred_volumes && v.extent != LightExtent::range) continue;
       for (const Format target : {Format::rgba8, Format::rgba16f}) {
@@ -168,7 +168,7 @@ TEST_CASE("Every strategy draws one image, whatever the culling, threads, tiles,
 TEST_CASE("Row 50 in a frame: 64 lights of a quarter code leave nothing where each is blended, 16 codes where summed") {
   Scene scene = squares(1);
   for (int i = 0; i < 64; ++i) scene.lights.push_back(ambient(0.25f / 255.0f));
-  for (const Strategy strategy : kStrategies) {
+  for (const Strategy strategy : kEachStrategy) {
     for (const std::string_view simd : simd_targets())
       for (const int tile : {8, 64}) {
         const Image image =
@@ -195,7 +195,7 @@ TEST_CASE("Fragments that share a pixel's depth are drawn by every light but the
 TEST_CASE("Without lights a surface is black with its alpha, and the rest is the clear colour") {
   Scene scene = squares(1, 1.0f);
   scene.clear = {0.25f, 0.5f, 0.75f, 0.5f};
-  for (const Strategy strategy : kStrategies) {
+  for (const Strategy strategy : kEachStrategy) {
     const Image image = render_frame(scene, float_planes(strategy, Format::rgba32f)).color;
     INFO(name_of(strategy));
     for (int c = 0; c < 4; ++c) {
@@ -336,7 +336,7 @@ TEST_CASE("Costs count the planes that a preset's lights read: three, and specul
   const Scene scene = builtin_scene("lecture");
   const PreparedScene prepared(scene);
   for (const Preset& preset : stated_presets())
-    for (const Strategy strategy : kStrategies) {
+    for (const Strategy strategy : kEachStrategy) {
       Pipeline p = preset.pipeline;
       p.width = 64, p.height = 48;
       p.strategy = strategy;

@@ -11,6 +11,7 @@
 #include "shading/frame.h"
 #include "tests/catch.hpp"
 #include "tests/raster/random_frame.h"
+#include "tests/shading/blend_pixels.h"
 #include "tests/stated_presets.h"
 
 using namespace trueshade;
@@ -30,8 +31,6 @@ Rgba stored_at(const Image& image, int x, int y) {
         layout.number_class == NumberClass::unorm ? float(image.code(x, y, c)) : float(image.value(x, y, c));
   return out;
 }
-
-bool same(float a, float b) { return (a != a && b != b) || std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b); }
 
 bool passes(DepthFunc func, double z, double there) {
   const bool less = z<there, equal = z == there, greater = z> there;

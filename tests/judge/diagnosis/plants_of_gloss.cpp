@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tests/judge/diagnosis/plants.h"
+#include "tests/judge/srgb_in_double.h"
 
 namespace trueshade::testing {
 
@@ -41,7 +42,7 @@ Plant rewritten(std::string_view name, std::string_view finding, std::string_vie
 }
 
 void encode(std::array<double, 4>& v, int) {
-  for (size_t k = 0; k < 3; ++k) v[k] = v[k] <= 0.0031308 ? 12.92 * v[k] : 1.055 * std::pow(v[k], 1 / 2.4) - 0.055;
+  for (size_t k = 0; k < 3; ++k) v[k] = srgb_encoded(v[k]);
 }
 void scale(std::array<double, 4>& v, int variant) {
   constexpr double kFactors[] = {0.5, 3.0, 1.1};

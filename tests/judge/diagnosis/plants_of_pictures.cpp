@@ -6,6 +6,7 @@
 #include "core/half.h"
 #include "tests/judge/diagnosis/plants.h"
 #include "tests/judge/diagnosis/wrong_lights.h"
+#include "tests/judge/srgb_in_double.h"
 
 namespace trueshade::testing {
 
@@ -63,7 +64,6 @@ Output slipped(LightSlip slip, std::initializer_list<int> amounts = {0}) {
   };
 }
 
-double srgb_of(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
 double linear_of(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
 
 template <class Change>
@@ -125,10 +125,10 @@ std::vector<Plant> made() {
       }),
       2);
   out("sRGB once too often", {"picture-srgb-encoded"}, repainted([](Color4& c, int) {
-        for (int k = 0; k < 3; ++k) c[size_t(k)] = srgb_of(c[size_t(k)]);
+        for (int k = 0; k < 3; ++k) c[size_t(k)] = srgb_encoded(c[size_t(k)]);
       }));
   out("sRGB twice too often", {"picture-srgb-encoded-twice"}, repainted([](Color4& c, int) {
-        for (int k = 0; k < 3; ++k) c[size_t(k)] = srgb_of(srgb_of(c[size_t(k)]));
+        for (int k = 0; k < 3; ++k) c[size_t(k)] = srgb_encoded(srgb_encoded(c[size_t(k)]));
       }));
   out("sRGB decoded once too often", {"picture-srgb-missing"}, repainted([](Color4& c, int) {
         for (int k = 0; k < 3; ++k) c[size_t(k)] = linear_of(c[size_t(k)]);

@@ -7,6 +7,7 @@
 
 #include "tests/judge/diagnosis/plants.h"
 #include "tests/judge/diagnosis/view_rows.h"
+#include "tests/judge/srgb_in_double.h"
 
 namespace trueshade::testing {
 
@@ -108,7 +109,6 @@ Output albedos(Formula formula) {
   };
 }
 
-double to_srgb(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
 double from_srgb(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
 
 V to_view(const Scene& s, const V& v) {
@@ -245,7 +245,7 @@ std::vector<Plant> made_planes() {
   out("depth", "depth with a bias", {"depth-bias"},
       depths([](const Scene&, float z, const V&, int v) { return z + (v == 0 ? 0.001f : -0.01f); }, false), 2);
   out("albedo", "albedo sRGB-encoded", {"albedo-srgb-encoded"}, albedos([](std::array<double, 4>& c) {
-        for (size_t k = 0; k < 3; ++k) c[k] = to_srgb(c[k]);
+        for (size_t k = 0; k < 3; ++k) c[k] = srgb_encoded(c[k]);
       }));
   out("albedo", "albedo decoded once too often", {"albedo-srgb-decoded"}, albedos([](std::array<double, 4>& c) {
         for (size_t k = 0; k < 3; ++k) c[k] = from_srgb(c[k]);
