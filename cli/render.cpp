@@ -111,7 +111,7 @@ SceneToRender::SceneToRender(const RenderOptions& given, const Execution& execut
     throw Error(ErrorKind::usage, "--resume", "one large picture that goes into files can be gone on with",
                 "leave it out: a picture over 16384 pixels a side, or of more than 67108864, is large");
   const bool camera_is_framed = scene.camera_of_ours || options.camera.any() || options.turntable;
-  if (camera_is_framed && cached.clusters && cached.clusters->source) cached.clusters->source->check_positions(scene);
+  if (camera_is_framed && cached.clusters && cached.clusters->source) cached.clusters->source->check_for_camera(scene);
   RenderOptions seen = options;
   if (options.turntable)
     seen.camera = turntable(scene, options.camera, *options.turntable, aspect_of(pipeline)).front();

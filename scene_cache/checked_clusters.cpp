@@ -19,9 +19,14 @@ void CheckedClusters::check(const Scene& scene, const Instance& instance, const 
     if (map->used()) check_texture(scene.textures[size_t(map->texture)], size_t(map->texture));
 }
 
-void CheckedClusters::check_positions(const Scene& scene) const {
-  for (const Mesh& mesh : scene.meshes)
+void CheckedClusters::check_for_camera(const Scene& scene) const {
+  const bool with_faces = looks_at_faces(scene);
+  for (const Mesh& mesh : scene.meshes) {
     for (const FloatStream& stream : mesh.position) check_part(stream, 0, stream.size());
+    if (!with_faces) continue;
+    for (const FloatStream& stream : mesh.normal) check_part(stream, 0, stream.size());
+    check_part(mesh.indices, 0, mesh.indices.size());
+  }
 }
 
 void CheckedClusters::check_texture(const Texture& texture, size_t index) const {

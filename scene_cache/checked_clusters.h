@@ -14,7 +14,7 @@ class CheckedClusters : public ClusterSource {
       : file_(std::move(file)), texture_is_checked_(textures) {}
   void check(const Scene& scene, const Instance& instance, const ClusteredMesh& mesh,
              const Cluster& cluster) const override;
-  void check_positions(const Scene& scene) const override;
+  void check_for_camera(const Scene& scene) const override;
   void check_all() const override { file_->check_all(); }
 
  private:

@@ -12,7 +12,7 @@ namespace trueshade {
 /// the walls enclose half of the box around the model; and where more is inside: a thing between the walls, or walls of
 /// three materials. (A ball that is turned inside out is none of these but the first.) The eye stands in the room where
 /// walls are seen in every direction, as near to the corner below `toward` as it can, and looks at the room's middle. A
-/// model of more than 200,000 triangles is not looked at.
+/// model of more than 500,000 triangles is not looked at.
 ///
 /// `bounds`: without ground. `toward`: world, unit, from the model to the eye outside. `fov_y_rad`: full vertical
 /// angle.

@@ -144,12 +144,13 @@ SeenAreas areas_from(const Scene& scene, const glm::dvec3& toward) {
 
 }  // namespace
 
+bool looks_at_faces(const Scene& scene) { return scene.is_model && scene.triangle_count() <= 2'000'000; }
+
 glm::dvec2 turn_of_side(const Scene& scene) {
   constexpr glm::dvec2 kTurns[] = {{0.0, 1.0}, {0.0, -1.0}, {1.0, 0.0}, {-1.0, 0.0}};
   constexpr double kLeastDrawn = 0.1;
-  constexpr uint64_t kMostTriangles = 2'000'000;  // so many are looked at in a moment
   const FpScope fp;
-  if (!scene.photometric || scene.triangle_count() > kMostTriangles) return kTurns[0];
+  if (!scene.photometric || !looks_at_faces(scene)) return kTurns[0];
   const SeenAreas front = areas_from(scene, kFromTheFront);
   if (!(front.drawn < kLeastDrawn * front.all)) return kTurns[0];
   return *std::max_element(std::begin(kTurns), std::end(kTurns), [&](const glm::dvec2& a, const glm::dvec2& b) {
@@ -197,9 +198,10 @@ Camera camera_seeing(const Scene& scene, double aspect, std::optional<float> fov
   const FpScope fp;
   SeenFrom view;
   view.toward = unit(turned(kFromTheFront, turn_of_side(scene)));
-  if (const auto inside =
-          camera_in_room(scene, bounds_without_ground(scene), view.toward, fov_y_rad.value_or(kFovInside)))
-    return *inside;
+  std::optional<Camera> inside;
+  if (looks_at_faces(scene))
+    inside = camera_in_room(scene, bounds_without_ground(scene), view.toward, fov_y_rad.value_or(kFovInside));
+  if (inside) return *inside;
   Camera camera;
   camera.fov_y_rad = fov_y_rad.value_or(kFovOutside);
   view.right = unit(cross(glm::dvec3(0.0, 1.0, 0.0), view.toward)), view.up = cross(view.toward, view.right);

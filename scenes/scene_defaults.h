@@ -34,6 +34,10 @@ struct Framing {
 };
 Framing framing_of(const Scene& scene, const SeenFrom& view);
 
+/// Whether camera_seeing() looks at the triangles of a scene, and not at its vertices alone: at those of a model of at
+/// most 2,000,000, which takes a moment.
+bool looks_at_faces(const Scene& scene);
+
 /// How far the side that camera_seeing() looks from is turned from the front, +z, to the right: the sine and the cosine
 /// of the angle. (0, 1) but for a glTF model that shows hardly anything but backs there, which are not drawn: then it
 /// is the side, of the front, the back and both others, where most fronts are seen.

@@ -86,7 +86,7 @@ TEST_CASE("A glTF model that turns its backs to the front is seen from where its
   scene.materials.emplace_back();
   scene.instances.emplace_back();
   CHECK(turn_of_side(scene) == glm::dvec2(0, 1));
-  scene.photometric = true;
+  scene.photometric = scene.is_model = true;
   CHECK(turn_of_side(scene) == glm::dvec2(0, -1));
   CHECK(camera_seeing(scene).eye.z < -0.5f);
   scene.instances[0].mirrored = true;
