@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/image_files/image_io.h"
+#include "scenes/mesh.h"
 
 namespace trueshade {
 

@@ -13,11 +13,30 @@
 namespace trueshade::oracle {
 namespace {
 
-/// Bits of a channel of a fixed-point format, 0 where the format is none: a list of its own.
+/// Bits of a channel of a target in fixed point, 0 of other formats: a list of its own, as has_alpha() and small_of()
+/// are, so that a wrong row of core/format.h is seen.
 int unorm_bits(Format format, size_t channel) {
-  if (format == Format::rgba8 || format == Format::srgb8_a8) return 8;
-  if (format == Format::rgba16) return 16;
-  if (format == Format::rgb10_a2) return channel == 3 ? 2 : 10;
+  switch (format) {
+    case Format::rgba8:
+    case Format::srgb8_a8:
+      return 8;
+    case Format::rgba16:
+      return 16;
+    case Format::rgb10_a2:
+      return channel == 3 ? 2 : 10;
+    case Format::r11g11b10f:
+    case Format::rgb16f:
+    case Format::rgba16f:
+    case Format::rgba32f:
+      return 0;
+    case Format::rgb32f:  // of planes alone
+    case Format::rg32f:
+    case Format::r32ui:
+    case Format::d32f:
+    case Format::d24:
+    case Format::d16:
+      break;
+  }
   return 0;
 }
 

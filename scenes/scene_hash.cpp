@@ -12,6 +12,9 @@
 // except that -0 counts as 0. Names and the spec are left out: they change no pixel. Textures and what materials do
 // with them come last, and only where a material does something. Many texels count by a digest a texture, which all
 // cores find together and for which four bytes a texel are read instead of four floats.
+//
+// What scenes of the first layout did not have counts only where it is not the default, so that no hash moves: behind a
+// mark of 2^60 or more, as no count is, plus an index. scene_hash() has the marks; a later field takes one of its own.
 namespace trueshade {
 namespace {
 

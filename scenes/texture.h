@@ -61,6 +61,11 @@ struct Sampler {
   bool operator==(const Sampler&) const = default;
 };
 
+/// Whether a lookup may read the border.
+constexpr bool reads_border(const Sampler& s) {
+  return s.wrap[0] == Wrap::clamp_to_border || s.wrap[1] == Wrap::clamp_to_border;
+}
+
 inline constexpr size_t kMaxUvSets = 6;  ///< of a mesh: one for each map of a material (kMaterialMaps)
 
 /// A texture as a material uses it.

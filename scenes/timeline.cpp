@@ -186,7 +186,8 @@ void set_property(Light& light, LightProperty property, const glm::dvec4& value)
       light.up = glm::vec3(value);
       break;
   }
-  if (has_area(light.type) && row_of(light.type).is_aimed && property >= LightProperty::right) aim(light);
+  const bool spans = property == LightProperty::right || property == LightProperty::up;
+  if (spans && has_area(light.type) && row_of(light.type).is_aimed) aim(light);
 }
 
 void set_property(Camera& camera, CameraProperty property, const glm::dvec4& value) {

@@ -7,6 +7,7 @@
 #include "core/fp_env.h"
 #include "scenes/json/json_value.h"
 #include "scenes/scene.h"
+#include "scenes/trig.h"
 
 namespace trueshade {
 namespace {

@@ -136,9 +136,16 @@ HWY_INLINE VF encoded(VF x, Format format, int c, HalfRound mode) {
     case Format::rgb16f:
     case Format::rgba16f:
       return rounded_to_half(x, mode);
-    default:
+    case Format::rgba32f:
+    case Format::rgb32f:
+    case Format::rg32f:
+    case Format::r32ui:
+    case Format::d32f:
+    case Format::d24:  // of depths, the depth sink rounds
+    case Format::d16:
       return x;
   }
+  return x;
 }
 
 /// The float that a shader reads from what channel c holds: for codes the nearest to k / largest, or llvmpipe's

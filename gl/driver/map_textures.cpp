@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "gl/lists/api_numbers.h"
 #include "gl/lists/scene_records.h"
 
 namespace trueshade::oracle {
@@ -23,21 +24,7 @@ GlFormat gl_format(TextureFormat format) {
   return {};
 }
 
-GLint gl_wrap(Wrap wrap) {
-  switch (wrap) {
-    case Wrap::repeat:
-      return GL_REPEAT;
-    case Wrap::mirrored_repeat:
-      return GL_MIRRORED_REPEAT;
-    case Wrap::clamp_to_edge:
-      return GL_CLAMP_TO_EDGE;
-    case Wrap::clamp_to_border:
-      return GL_CLAMP_TO_BORDER;
-    case Wrap::mirror_clamp_to_edge:
-      return GL_MIRROR_CLAMP_TO_EDGE;
-  }
-  return GL_REPEAT;
-}
+GLint gl_wrap(Wrap wrap) { return GLint(api_number(ShaderApi::gl, wrap_name(ShaderApi::gl, wrap))); }
 
 GLint gl_min_filter(const Sampler& s) {
   const bool linear = s.min_filter == Filter::linear;

@@ -3,6 +3,8 @@
 #include <stdexcept>
 
 #include "core/error.h"
+#include "gl/emit/format_words.h"
+#include "gl/lists/api_numbers.h"
 
 namespace trueshade::oracle {
 
@@ -13,37 +15,11 @@ void delete_vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
 void delete_program(GLuint name) { glDeleteProgram(name); }
 
 GlFormat gl_format(Format format) {
-  switch (format) {
-    case Format::rgba8:
-      return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
-    case Format::srgb8_a8:
-      return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE};
-    case Format::rgb10_a2:
-      return {GL_RGB10_A2, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV};
-    case Format::rgba16:
-      return {GL_RGBA16, GL_RGBA, GL_UNSIGNED_SHORT};
-    case Format::r11g11b10f:
-      return {GL_R11F_G11F_B10F, GL_RGB, GL_UNSIGNED_INT_10F_11F_11F_REV};
-    case Format::rgb16f:
-      return {GL_RGB16F, GL_RGB, GL_HALF_FLOAT};
-    case Format::rgba16f:
-      return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT};
-    case Format::rgba32f:
-      return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
-    case Format::rgb32f:
-      return {GL_RGB32F, GL_RGB, GL_FLOAT};
-    case Format::rg32f:
-      return {GL_RG32F, GL_RG, GL_FLOAT};
-    case Format::r32ui:
-      return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT};
-    case Format::d32f:
-      return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT};
-    case Format::d24:
-      return {GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT};
-    case Format::d16:
-      return {GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT, GL_UNSIGNED_SHORT};
-  }
-  return {};
+  const FormatWords words = words_of(format);
+  const auto number = [](std::string_view name) { return GLenum(api_number(ShaderApi::gl, name)); };
+  if (format == Format::r11g11b10f)  // as it is stored
+    return {number(words.gl), number(words.channels), GL_UNSIGNED_INT_10F_11F_11F_REV};
+  return {number(words.gl), number(words.channels), number(words.type)};
 }
 
 GlBuffer make_buffer(GLenum target, const void* bytes, size_t size, GLenum usage) {

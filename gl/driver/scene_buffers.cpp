@@ -5,6 +5,7 @@
 
 #include "gl/driver/geometry_state.h"
 #include "gl/emit/glsl.h"
+#include "gl/emit/light_text.h"
 
 namespace trueshade::oracle {
 

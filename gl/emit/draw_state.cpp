@@ -1,79 +1,12 @@
 #include "gl/emit/draw_state.h"
 
 #include "core/error.h"
+#include "gl/emit/format_words.h"
 #include "gl/emit/glsl.h"
 
 namespace trueshade::oracle {
 
 namespace {
-
-std::string gl_format_name(Format format) {
-  switch (format) {
-    case Format::rgba8:
-      return "GL_RGBA8";
-    case Format::srgb8_a8:
-      return "GL_SRGB8_ALPHA8";
-    case Format::rgb10_a2:
-      return "GL_RGB10_A2";
-    case Format::rgba16:
-      return "GL_RGBA16";
-    case Format::r11g11b10f:
-      return "GL_R11F_G11F_B10F";
-    case Format::rgb16f:
-      return "GL_RGB16F";
-    case Format::rgba16f:
-      return "GL_RGBA16F";
-    case Format::rgba32f:
-      return "GL_RGBA32F";
-    case Format::rgb32f:
-      return "GL_RGB32F";
-    case Format::rg32f:
-      return "GL_RG32F";
-    case Format::r32ui:
-      return "GL_R32UI";
-    case Format::d32f:
-      return "GL_DEPTH_COMPONENT32F";
-    case Format::d24:
-      return "GL_DEPTH_COMPONENT24";
-    case Format::d16:
-      return "GL_DEPTH_COMPONENT16";
-  }
-  return {};
-}
-
-std::string vulkan_format_name(Format format) {
-  switch (format) {
-    case Format::rgba8:
-      return "R8G8B8A8_UNORM";
-    case Format::srgb8_a8:
-      return "R8G8B8A8_SRGB";
-    case Format::rgb10_a2:
-      return "A2B10G10R10_UNORM_PACK32";
-    case Format::rgba16:
-      return "R16G16B16A16_UNORM";
-    case Format::r11g11b10f:
-      return "B10G11R11_UFLOAT_PACK32";
-    case Format::rgb16f:
-      return "R16G16B16_SFLOAT";
-    case Format::rgba16f:
-      return "R16G16B16A16_SFLOAT";
-    case Format::rgba32f:
-      return "R32G32B32A32_SFLOAT";
-    case Format::rgb32f:
-      return "R32G32B32_SFLOAT";
-    case Format::rg32f:
-      return "R32G32_SFLOAT";
-    case Format::r32ui:
-      return "R32_UINT";
-    case Format::d32f:
-      return "D32_SFLOAT";
-    case Format::d24:
-      return "X8_D24_UNORM_PACK32";
-    case Format::d16:
-      return "D16_UNORM";
-  }
-  return {};
-}
 
 constexpr const char* kCompareNames[] = {"NEVER", "LESS", "EQUAL", "LEQUAL", "GREATER", "NOTEQUAL", "GEQUAL", "ALWAYS"};
 constexpr const char* kVulkanCompareNames[] = {
@@ -285,7 +218,7 @@ std::string vulkan_state(const DrawState& state, const std::vector<Format>& atta
 }
 
 std::string format_name(ShaderApi api, Format format) {
-  return api == ShaderApi::vulkan ? "VK_FORMAT_" + vulkan_format_name(format) : gl_format_name(format);
+  return std::string(api == ShaderApi::vulkan ? words_of(format).vulkan : words_of(format).gl);
 }
 
 std::string quoted(const std::string& text) { return '"' + text + '"'; }

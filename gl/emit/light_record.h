@@ -18,13 +18,18 @@ struct LightMember {
   std::string_view made_by = {};  ///< a function that makes it of them; empty: it is they
 };
 
+/// Every member there but `shadow`, `cookie` and `user`, by ascending texel. A new one takes a component that no row
+/// has, or a texel behind the others.
 inline constexpr LightMember kLightMembers[] = {
-    {"position", 0, "xyz"},   {"type", 0, "w", "ts_type_of"}, {"color", 1, "xyz"},       {"range", 1, "w"},
-    {"direction", 2, "xyz"},  {"cos_outer", 2, "w"},          {"attenuation", 3, "xyz"}, {"spot_exponent", 3, "w"},
-    {"ambient", 4, "xyz"},    {"index", 4, "w", "uint"},      {"cone", 5, "x"},          {"penumbra", 5, "y"},
-    {"cos_inner", 5, "z"},    {"penumbra_slope", 5, "w"},     {"cone_scale", 6, "x"},    {"cone_offset", 6, "y"},
-    {"cutoff_slope", 6, "z"},
-    {"right", 7, "xyz"},
+    {"position", 0, "xyz"},    {"type", 0, "w", "ts_type_of"},
+    {"color", 1, "xyz"},       {"range", 1, "w"},
+    {"direction", 2, "xyz"},   {"cos_outer", 2, "w"},
+    {"attenuation", 3, "xyz"}, {"spot_exponent", 3, "w"},
+    {"ambient", 4, "xyz"},     {"index", 4, "w", "uint"},
+    {"cone", 5, "x"},          {"penumbra", 5, "y"},
+    {"cos_inner", 5, "z"},     {"penumbra_slope", 5, "w"},
+    {"cone_scale", 6, "x"},    {"cone_offset", 6, "y"},
+    {"cutoff_slope", 6, "z"},  {"right", 7, "xyz"},
     {"up", 8, "xyz"},
 };
 

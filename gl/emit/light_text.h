@@ -51,7 +51,8 @@ std::string light_fragment_text(const Pipeline& pipeline, const GlslOptions& opt
 /// What stands before the user's text in such a shader, or the whole of another.
 std::string_view own_text(std::string_view shader);
 
-/// Which texels a light has in the buffer `lights` (light_record.h), one behind the other: the first two, and those of which the light program reads something.
+/// Which texels a light has in the buffer `lights` (light_record.h), one behind the other: the first two, and those of
+/// which the light program reads something.
 std::vector<size_t> light_texels(const Pipeline& pipeline);
 
 /// Where Vulkan binds the block of parameters, in set 0.

@@ -1,5 +1,8 @@
 #include "gl/lists/api_numbers.h"
 
+#include <algorithm>
+#include <cassert>
+
 namespace trueshade::oracle {
 
 namespace {
@@ -198,6 +201,23 @@ constexpr ApiNumber kVulkan[] = {{"VK_FORMAT_UNDEFINED", 0},
 std::span<const ApiNumber> api_numbers(ShaderApi api) {
   if (api == ShaderApi::vulkan) return kVulkan;
   return kOpenGl;
+}
+
+uint32_t api_number(ShaderApi api, std::string_view name) {
+  const std::span<const ApiNumber> all = api_numbers(api);
+  const auto found = std::find_if(all.begin(), all.end(), [name](const ApiNumber& row) { return row.name == name; });
+  assert(found != all.end());
+  return found->number;
+}
+
+std::string wrap_name(ShaderApi api, Wrap wrap) {
+  return (api == ShaderApi::vulkan ? "VK_SAMPLER_ADDRESS_MODE_" : "GL_") + capitals(kWrapNames[size_t(wrap)]);
+}
+
+std::string capitals(std::string_view word) {
+  std::string out;
+  for (const char c : word) out += c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c;
+  return out;
 }
 
 }  // namespace trueshade::oracle

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/json_number.h"
+#include "gl/emit/format_words.h"
 #include "gl/emit/light_text.h"
 #include "gl/lists/api_numbers.h"
 
@@ -63,35 +64,7 @@ std::string size_text(size_t width, size_t height) {
 
 /// Two words for glTexImage2D or glReadPixels: a format and a type.
 std::vector<std::string> pixel_words(Format format) {
-  switch (format) {
-    case Format::rgba8:
-    case Format::srgb8_a8:
-      return {"GL_RGBA", "GL_UNSIGNED_BYTE"};
-    case Format::rgb10_a2:
-      return {"GL_RGBA", "GL_UNSIGNED_INT_2_10_10_10_REV"};
-    case Format::rgba16:
-      return {"GL_RGBA", "GL_UNSIGNED_SHORT"};
-    case Format::rgb16f:
-      return {"GL_RGB", "GL_HALF_FLOAT"};
-    case Format::r11g11b10f:
-    case Format::rgb32f:
-      return {"GL_RGB", "GL_FLOAT"};
-    case Format::rgba16f:
-      return {"GL_RGBA", "GL_HALF_FLOAT"};
-    case Format::rgba32f:
-      return {"GL_RGBA", "GL_FLOAT"};
-    case Format::rg32f:
-      return {"GL_RG", "GL_FLOAT"};
-    case Format::r32ui:
-      return {"GL_RED_INTEGER", "GL_UNSIGNED_INT"};
-    case Format::d32f:
-      return {"GL_DEPTH_COMPONENT", "GL_FLOAT"};
-    case Format::d24:
-      return {"GL_DEPTH_COMPONENT", "GL_UNSIGNED_INT"};
-    case Format::d16:
-      return {"GL_DEPTH_COMPONENT", "GL_UNSIGNED_SHORT"};
-  }
-  return {};
+  return {std::string(words_of(format).channels), std::string(words_of(format).type)};
 }
 
 bool is_depth(Format format) { return format == Format::d32f || format == Format::d24 || format == Format::d16; }
@@ -165,12 +138,6 @@ Format format_of(TextureFormat format) {
   return kFormats[size_t(format)];
 }
 
-std::string capitals(std::string_view text) {
-  std::string out;
-  for (const char c : text) out += c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c;
-  return out;
-}
-
 std::string border_numbers(const Sampler& s) {
   const float border[] = {s.border.x, s.border.y, s.border.z, s.border.w};
   return numbers_text(border, false);
@@ -188,8 +155,8 @@ std::string gl_sampler(const Sampler& s, size_t levels, ShaderApi api) {
   const std::string mip =
       s.mip_filter == MipFilter::none ? std::string() : "_MIPMAP_" + capitals(kMipFilterNames[size_t(s.mip_filter)]);
   std::vector<std::string> members{
-      member("GL_TEXTURE_WRAP_S", word(kWrapNames[size_t(s.wrap[0])])),
-      member("GL_TEXTURE_WRAP_T", word(kWrapNames[size_t(s.wrap[1])])),
+      member("GL_TEXTURE_WRAP_S", quoted(wrap_name(api, s.wrap[0]))),
+      member("GL_TEXTURE_WRAP_T", quoted(wrap_name(api, s.wrap[1]))),
       member("GL_TEXTURE_MAG_FILTER", word(kFilterNames[size_t(s.mag_filter)])),
       member("GL_TEXTURE_MIN_FILTER", quoted("GL_" + capitals(kFilterNames[size_t(s.min_filter)]) + mip)),
       member("GL_TEXTURE_MIN_LOD", float_text(double(s.lod_min))),
@@ -199,16 +166,14 @@ std::string gl_sampler(const Sampler& s, size_t levels, ShaderApi api) {
     refuse("lod_bias of a sampler");
     members.push_back(member("GL_TEXTURE_LOD_BIAS", float_text(double(s.lod_bias))));
   }
-  if (s.wrap[0] == Wrap::clamp_to_border || s.wrap[1] == Wrap::clamp_to_border)
-    members.push_back(member("GL_TEXTURE_BORDER_COLOR", border_numbers(s)));
+  if (reads_border(s)) members.push_back(member("GL_TEXTURE_BORDER_COLOR", border_numbers(s)));
   return joined_members('{', members, " ");
 }
 
 /// One of the three borders that every device of Vulkan has.
 std::string vulkan_border(const Sampler& s) {
   const std::string name = "VK_BORDER_COLOR_FLOAT_";
-  const bool read = s.wrap[0] == Wrap::clamp_to_border || s.wrap[1] == Wrap::clamp_to_border;
-  if (!read || s.border == glm::vec4(0.0f)) return quoted(name + "TRANSPARENT_BLACK");
+  if (!reads_border(s) || s.border == glm::vec4(0.0f)) return quoted(name + "TRANSPARENT_BLACK");
   if (s.border == glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)) return quoted(name + "OPAQUE_BLACK");
   if (s.border == glm::vec4(1.0f)) return quoted(name + "OPAQUE_WHITE");
   throw Error(ErrorKind::usage, "--api vulkan", "a texture's border is no colour that Vulkan has",
@@ -219,10 +184,7 @@ std::string vulkan_border(const Sampler& s) {
 /// Vulkan's manual has it of GL_LINEAR and GL_NEAREST.
 std::string vulkan_sampler(const Sampler& s, size_t levels) {
   const auto filter = [](Filter f) { return quoted("VK_FILTER_" + capitals(kFilterNames[size_t(f)])); };
-  const auto address = [](Wrap w) {
-    return quoted("VK_SAMPLER_ADDRESS_MODE_" +
-                  (w == Wrap::mirror_clamp_to_edge ? "MIRROR_CLAMP_TO_EDGE" : capitals(kWrapNames[size_t(w)])));
-  };
+  const auto address = [](Wrap w) { return quoted(wrap_name(ShaderApi::vulkan, w)); };
   const bool none = s.mip_filter == MipFilter::none;
   const float most = none ? 0.25f : std::min(std::max(s.lod_max, 0.0f), float(levels)),
               least = none ? 0.0f : std::min(std::max(s.lod_min, 0.0f), most);

@@ -10,6 +10,8 @@
 
 #include "core/error.h"
 #include "core/threads/startable_threads.h"
+#include "gl/emit/format_words.h"
+#include "gl/lists/api_numbers.h"
 
 namespace trueshade::oracle {
 
@@ -26,16 +28,12 @@ VkFormat texture_format(TextureFormat format) {
 }
 
 VkSamplerAddressMode address_mode(Wrap wrap) {
-  constexpr VkSamplerAddressMode kModes[] = {
-      VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-      VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER, VK_SAMPLER_ADDRESS_MODE_MIRROR_CLAMP_TO_EDGE};
-  return kModes[size_t(wrap)];
+  return VkSamplerAddressMode(api_number(ShaderApi::vulkan, wrap_name(ShaderApi::vulkan, wrap)));
 }
 
 /// One of the three borders that every device has. A sampler that does not clamp to its border reads none.
 VkBorderColor border_of(const Sampler& s) {
-  const bool is_read = s.wrap[0] == Wrap::clamp_to_border || s.wrap[1] == Wrap::clamp_to_border;
-  if (!is_read || s.border == glm::vec4(0.0f)) return VK_BORDER_COLOR_FLOAT_TRANSPARENT_BLACK;
+  if (!reads_border(s) || s.border == glm::vec4(0.0f)) return VK_BORDER_COLOR_FLOAT_TRANSPARENT_BLACK;
   if (s.border == glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)) return VK_BORDER_COLOR_FLOAT_OPAQUE_BLACK;
   if (s.border == glm::vec4(1.0f)) return VK_BORDER_COLOR_FLOAT_OPAQUE_WHITE;
   char border[96];
@@ -57,39 +55,7 @@ void check_vulkan(VkResult result, const char* where) {
               memory ? "judge a smaller image or scene" : "another driver, or OpenGL's: --driver llvmpipe");
 }
 
-VkFormat vulkan_format(Format format) {
-  switch (format) {
-    case Format::rgba8:
-      return VK_FORMAT_R8G8B8A8_UNORM;
-    case Format::srgb8_a8:
-      return VK_FORMAT_R8G8B8A8_SRGB;
-    case Format::rgb10_a2:
-      return VK_FORMAT_A2B10G10R10_UNORM_PACK32;
-    case Format::rgba16:
-      return VK_FORMAT_R16G16B16A16_UNORM;
-    case Format::r11g11b10f:
-      return VK_FORMAT_B10G11R11_UFLOAT_PACK32;
-    case Format::rgb16f:
-      return VK_FORMAT_R16G16B16_SFLOAT;
-    case Format::rgba16f:
-      return VK_FORMAT_R16G16B16A16_SFLOAT;
-    case Format::rgba32f:
-      return VK_FORMAT_R32G32B32A32_SFLOAT;
-    case Format::rgb32f:
-      return VK_FORMAT_R32G32B32_SFLOAT;
-    case Format::rg32f:
-      return VK_FORMAT_R32G32_SFLOAT;
-    case Format::r32ui:
-      return VK_FORMAT_R32_UINT;
-    case Format::d32f:
-      return VK_FORMAT_D32_SFLOAT;
-    case Format::d24:
-      return VK_FORMAT_X8_D24_UNORM_PACK32;
-    case Format::d16:
-      return VK_FORMAT_D16_UNORM;
-  }
-  return VK_FORMAT_UNDEFINED;
-}
+VkFormat vulkan_format(Format format) { return VkFormat(api_number(ShaderApi::vulkan, words_of(format).vulkan)); }
 
 namespace {
 

@@ -61,7 +61,8 @@ Interval slope(const Light& l, double lit) {
 }
 Interval no_texture(const Light&, uint32_t, size_t) { return Interval::of(-1); }
 
-/// docs/arithmetic.md section 8 for the numbers of cones.
+/// docs/arithmetic.md section 8 for the numbers of cones. The members are named again, and not by light_value() of
+/// scenes/pipeline/light_values.h, so that a wrong row there, which the renderer and the drivers share, is seen.
 using L = const Light&;
 constexpr Row<LightField> kLight[] = {
     {"type", [](L l, uint32_t, size_t) { return Interval::of(double(l.type)); }},

@@ -260,7 +260,9 @@ std::string shader_name(double shader) {
   return kNames[std::clamp(int(shader), 0, 2)];
 }
 std::string filter_name(double way) { return kTextureFilters[std::clamp(int(way), 0, kMostFilters)].name; }
-std::string wrap_name(double way) { return std::string(kWrapNames[size_t(std::clamp(int(way), 0, 4))]); }
+std::string wrap_name(double way) {
+  return std::string(kWrapNames[size_t(std::clamp(int(way), 0, int(std::size(kWrapNames)) - 1))]);
+}
 
 constexpr double kFaces[] = {0, 1, 2}, kFuncs[] = {1, 3, 4, 6, 7},
                  kFormats2[] = {double(Format::d16), double(Format::d24), double(Format::d32f)},

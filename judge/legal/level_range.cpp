@@ -178,7 +178,7 @@ long double mesa_decoded(long double s) {
 }
 
 LevelReading TexelSource::reading(size_t level) const {
-  const bool border = sampler.wrap[0] == Wrap::clamp_to_border || sampler.wrap[1] == Wrap::clamp_to_border;
+  const bool border = reads_border(sampler);
   const glm::vec4& b = sampler.border;
   const std::array<float, 4> color = border ? std::array{b.r, b.g, b.b, b.a} : std::array<float, 4>{};
   return {&texture, level, encoded, border, codes, color};

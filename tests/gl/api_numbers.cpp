@@ -4,11 +4,14 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 #include <string>
 
+#include "gl/emit/format_words.h"
 #include "tests/catch.hpp"
 
+using namespace trueshade;
 using namespace trueshade::oracle;
 
 namespace {
@@ -31,6 +34,23 @@ void check_numbers(ShaderApi api, const char* header) {
 }
 
 }  // namespace
+
+TEST_CASE("The names of all formats and wraps have numbers") {
+  for (const ShaderApi api : {ShaderApi::gl, ShaderApi::vulkan}) {
+    std::set<std::string_view> known;
+    for (const ApiNumber& constant : api_numbers(api)) known.insert(constant.name);
+    for (const Format format : kFormats) {
+      INFO(info(format).name);
+      const FormatWords words = words_of(format);
+      CHECK(known.contains(api == ShaderApi::vulkan ? words.vulkan : words.gl));
+      CHECK((api == ShaderApi::vulkan || (known.contains(words.channels) && known.contains(words.type))));
+    }
+    for (size_t i = 0; i < std::size(kWrapNames); ++i) {
+      INFO(kWrapNames[i]);
+      CHECK(known.contains(wrap_name(api, Wrap(i))));
+    }
+  }
+}
 
 TEST_CASE("Numbers of OpenGL in state.json are those of the registry") {
   check_numbers(ShaderApi::gl, TRUESHADE_EPOXY_HEADER);

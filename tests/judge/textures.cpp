@@ -50,7 +50,7 @@ Scene textured_room(int variant) {
     m.base_color = {0.9f, 1.0f, 0.8f, 1.0f};
     m.color_map.texture = i;
     Sampler& s = m.color_map.sampler;
-    s.wrap = {Wrap((variant + i) % 5), Wrap((variant + 2 * i) % 5)};
+    s.wrap = {Wrap(size_t(variant + i) % std::size(kWrapNames)), Wrap(size_t(variant + 2 * i) % std::size(kWrapNames))};
     s.mag_filter = Filter((variant + i) % 2), s.min_filter = Filter((variant / 2 + i) % 2);
     s.mip_filter = MipFilter((variant + 2 * i) % 3);
     s.lod_bias = variant % 3 == 2 ? -0.75f : 0.0f;

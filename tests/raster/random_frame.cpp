@@ -118,7 +118,7 @@ void add_maps(Random& random, Scene& scene) {
   const auto slot = [&](int texture) {
     TextureSlot out;
     out.texture = texture;
-    out.sampler.wrap = {Wrap(random() % 5), Wrap(random() % 5)};
+    out.sampler.wrap = {Wrap(random() % std::size(kWrapNames)), Wrap(random() % std::size(kWrapNames))};
     out.sampler.mag_filter = Filter(random() % 2), out.sampler.min_filter = Filter(random() % 2);
     out.sampler.mip_filter = MipFilter(random() % 3);
     out.sampler.lod_bias = float(between(random, -2, 2));

@@ -92,7 +92,7 @@ TEST_CASE("lookups equal the scalar oracle within half an ulp: every wrap, filte
       const auto [width, height] = sizes[random() % std::size(sizes)];
       const Texture texture = random_texture(random, TextureFormat(random() % 4), width, height);
       Sampler sampler = sampler_of(Filter(random() % 2), Filter(random() % 2), MipFilter(random() % 3),
-                                   Wrap(random() % 5), Wrap(random() % 5));
+                                   Wrap(random() % std::size(kWrapNames)), Wrap(random() % std::size(kWrapNames)));
       if (random() % 3 == 0) sampler.lod_bias = float(between(random, -4, 4));
       if (random() % 4 == 0) sampler.lod_max = float(between(random, 0, 5));
       if (random() % 4 == 0) sampler.lod_min = float(between(random, -1, 0.25));
@@ -135,7 +135,7 @@ TEST_CASE("all SIMD targets read the same bits") {
   for (int round = 0; round < 200; ++round) {
     const bool powers = round % 2 == 0;  // of two, repeating: places by masks
     const auto side = [&] { return powers ? 1 << random() % 7 : 1 + int(random() % 40); };
-    const auto wrap = [&] { return powers ? Wrap::repeat : Wrap(random() % 5); };
+    const auto wrap = [&] { return powers ? Wrap::repeat : Wrap(random() % std::size(kWrapNames)); };
     const Texture texture = random_texture(random, TextureFormat(random() % 4), side(), side());
     const Sampler sampler =
         sampler_of(Filter(random() % 2), Filter(random() % 2), MipFilter(random() % 3), wrap(), wrap());

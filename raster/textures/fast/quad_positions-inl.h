@@ -18,9 +18,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// Whether lookups go by quads: vectors have lanes, texels have four bytes, and no lookup reads a border.
 HWY_INLINE bool reads_quads(const TextureView& texture) {
-  const Sampler& s = texture.sampler;
-  return hn::MaxLanes(D64()) > 1 && bytes_per_texel(texture.format) == 4 && s.wrap[0] != Wrap::clamp_to_border &&
-         s.wrap[1] != Wrap::clamp_to_border;
+  return hn::MaxLanes(D64()) > 1 && bytes_per_texel(texture.format) == 4 && !reads_border(texture.sampler);
 }
 
 /// The quads of 2x2 texels that a vector of lookups reads, each lane of one level.

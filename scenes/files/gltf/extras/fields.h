@@ -13,9 +13,11 @@ inline constexpr auto kLightTypeNames = [] {
 }();
 inline constexpr std::string_view kBetweenNames[] = {"linear", "step", "cubic", "slerp"};
 inline constexpr std::string_view kLevelsNames[] = {"one", "filtered", "stored"};
+/// In the order of LightProperty.
 inline constexpr std::string_view kLightPropertyNames[] = {
     "color", "intensity", "ambient",       "position", "direction", "range", "attenuation",
     "cone",  "penumbra",  "spot_exponent", "radius",   "right",     "up"};
+static_assert(std::size(kLightPropertyNames) == size_t(LightProperty::up) + 1);
 inline constexpr std::string_view kCameraPropertyNames[] = {"eye", "target", "up", "fov_y", "fov_x"};
 
 inline constexpr auto kLightFields = [](auto& f, auto& light) {
