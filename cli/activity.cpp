@@ -15,10 +15,6 @@ std::atomic<bool> alive{false};
 std::mutex told;        // guards what the one that is alive says, and
 bool is_drawn = false;  // whether a line stands on the terminal
 
-double seconds_of(std::chrono::steady_clock::duration duration) {
-  return std::chrono::duration<double>(duration).count();
-}
-
 void wipe() {
   if (is_drawn) std::fputs("\r\x1b[K", stderr);
   is_drawn = false;

@@ -11,8 +11,6 @@ namespace {
 constexpr int kBarCells = 30;
 constexpr double kQuietSeconds = 1.0, kRedrawSeconds = 0.1;
 
-double seconds(std::chrono::steady_clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
-
 }  // namespace
 
 std::string progress_line(std::string_view what, std::string_view unit, int done, int total, double seconds) {
@@ -43,8 +41,8 @@ ProgressBar::~ProgressBar() {
 
 void ProgressBar::show(int done, int total) {
   const Clock::time_point now = Clock::now();
-  if (!terminal_ || seconds(now - begin_) < kQuietSeconds || seconds(now - shown_) < kRedrawSeconds) return;
-  const std::string line = '\r' + progress_line(what_, unit_, done, total, seconds(now - begin_)) + "\x1b[K";
+  if (!terminal_ || seconds_of(now - begin_) < kQuietSeconds || seconds_of(now - shown_) < kRedrawSeconds) return;
+  const std::string line = '\r' + progress_line(what_, unit_, done, total, seconds_of(now - begin_)) + "\x1b[K";
   std::fputs(line.c_str(), stderr);
   shown_ = now;
   drawn_ = true;

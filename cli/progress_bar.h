@@ -24,6 +24,11 @@ class ProgressBar {
   bool terminal_, drawn_ = false;
 };
 
+/// A duration as a number of seconds.
+inline double seconds_of(std::chrono::steady_clock::duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
 /// The line for `done` of `total` after `seconds`, without control characters.
 std::string progress_line(std::string_view what, std::string_view unit, int done, int total, double seconds);
 

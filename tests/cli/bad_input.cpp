@@ -4,11 +4,11 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "tests/catch.hpp"
 #include "tests/cli/refused.h"
 #include "tests/cli/run_command.h"
+#include "tests/file_contents.h"
 #include "tests/scratch_folder.h"
 
 namespace trueshade {
@@ -180,8 +180,8 @@ TEST_CASE("a reader that has ended ends the command without a word") {
     const std::string line = "cd '" + folder.path("") + "' && { sleep 0.1; '" TRUESHADE_COMMAND "' " + arguments +
                              " 2>err; echo $? >code; } | true";
     CHECK(std::system(line.c_str()) == 0);
-    std::ifstream err(folder.path("err")), code(folder.path("code"));
-    CHECK(std::string{std::istreambuf_iterator<char>(err), {}}.empty());
+    std::ifstream code(folder.path("code"));
+    CHECK(contents(folder.path("err")).empty());
     int exit_code = -1;
     code >> exit_code;
     CHECK(exit_code == 141);
@@ -196,8 +196,7 @@ TEST_CASE("what a file holds does nothing to a terminal, in errors and in what i
   const Outcome key = run_command({"info", "k.json"}, folder.path(""));
   check_refused(key, 3, "k.json: /");
   REQUIRE(run_command({"render", "builtin:cornell", "--size", "8x8", "-o", "x.png"}, folder.path("")).exit_code == 0);
-  std::ifstream file(folder.path("x.png"), std::ios::binary);
-  std::string png{std::istreambuf_iterator<char>(file), {}};
+  std::string png = contents(folder.path("x.png"));
   const std::string text = std::string("tEXta") + '\0' + "b\nc\x1b[2J\xc2\x9b";
   const auto sum = crc32(0, reinterpret_cast<const Bytef*>(text.data()), uInt(text.size()));
   std::string checksum;

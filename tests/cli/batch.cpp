@@ -10,24 +10,19 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
 
 #include "tests/cli/refused.h"
+#include "tests/file_contents.h"
 #include "tests/scratch_folder.h"
 
 namespace trueshade {
 namespace {
 
 using nlohmann::json;
-
-std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 json job(const std::string& name, const std::vector<std::string>& run, const std::vector<std::string>& after = {}) {
   json made{{"name", name}, {"run", run}};
@@ -337,7 +332,7 @@ TEST_CASE("JUnit and the page say what the table says, and a full disk takes no 
 }
 
 /// Starts a batch in a folder, silent.
-pid_t start(const Batch& batch) {
+pid_t start_batch(const Batch& batch) {
   const std::string place = batch.folder.path("");
   const pid_t process = fork();
   if (process != 0) return process;
@@ -395,7 +390,7 @@ void end_at_random(int kills, int signal) {
   int killed = 0, noted = 0;
   for (int run = 0; killed < kills && run < 30 * kills; ++run) {
     if (run % 3 == 2) std::filesystem::remove(batch.folder.path("jobs.json.state"));  // so that there is work to do
-    const pid_t process = start(batch);
+    const pid_t process = start_batch(batch);
     std::this_thread::sleep_for(longest * (random() % 1000) / 1000);
     kill(process, signal);
     const int status = end_of(process);
@@ -424,7 +419,7 @@ TEST_CASE("Jobs end with their batch, however long they would take, and an ignor
     const Batch batch;
     batch.write(
         {job("slow", {"render", "builtin:city,lights=100000", "--size", "12000x12000", "--threads", "1", "--hash"})});
-    const pid_t process = start(batch);
+    const pid_t process = start_batch(batch);
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     CHECK(works_in(batch.folder.path("")));
     kill(process, signal);
@@ -434,7 +429,7 @@ TEST_CASE("Jobs end with their batch, however long they would take, and an ignor
   const Batch batch;
   batch.write({job("a", drawing("builtin:cornell", "a.png"))});
   std::signal(SIGHUP, SIG_IGN);
-  const pid_t process = start(batch);
+  const pid_t process = start_batch(batch);
   std::signal(SIGHUP, SIG_DFL);
   for (int i = 0; i < 20; ++i) {
     kill(process, SIGHUP);

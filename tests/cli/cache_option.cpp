@@ -8,19 +8,13 @@
 #include <thread>
 
 #include "tests/catch.hpp"
+#include "tests/cli/output_of.h"
 #include "tests/cli/refused.h"
 #include "tests/cli/run_command.h"
 #include "tests/scratch_folder.h"
 
 namespace trueshade {
 namespace {
-
-std::string output_of(const Arguments& arguments, const ScratchFolder& folder) {
-  const Outcome outcome = run_command(arguments, folder.path(""));
-  CAPTURE(outcome.err);
-  REQUIRE(outcome.exit_code == 0);
-  return outcome.out;
-}
 
 /// A model with a picture as PNG, as OBJ with its library, as GLB, and a scene file that names two of them.
 void write_models(const ScratchFolder& folder) {

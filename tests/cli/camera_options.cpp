@@ -11,16 +11,15 @@
 namespace trueshade {
 namespace {
 
-using Words = std::vector<std::string>;
 using nlohmann::json;
 
 /// A tall slab without a camera: 1 wide, 4 high.
-constexpr const char* kModel =
+constexpr const char* kSlab =
     "v -0.5 0 0\nv 0.5 0 0\nv 0.5 4 0\nv -0.5 4 0\nv -0.5 0 0.5\nv 0.5 0 0.5\nv 0.5 4 0.5\nv -0.5 4 0.5\n"
     "f 5 6 7 8\nf 4 3 2 1\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n";
 
 /// The slab's front as glTF with two cameras, and two animations that move it.
-constexpr const char* kGltf =
+constexpr const char* kSlabGltf =
     R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2]}],
   "nodes": [{"mesh": 0}, {"name": "Front", "camera": 0, "translation": [0, 0.5, 4]},
             {"name": "Far out", "camera": 0, "translation": [0, 0.5, 9]}],
@@ -41,20 +40,20 @@ constexpr const char* kGltf =
     R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAA)"
     R"(AAAAAAAAAAAAAAAAAAAAAAAAAIC/AAAAAAAAAAA="}]})";
 
-class Folder {
+class SlabFolder {
  public:
-  Folder() {
-    folder_.write("slab.obj", kModel);
-    folder_.write("two.gltf", kGltf);
+  SlabFolder() {
+    folder_.write("slab.obj", kSlab);
+    folder_.write("two.gltf", kSlabGltf);
   }
-  Outcome run(const Words& words) const { return run_command(words, folder_.path("")); }
-  std::string said(const Words& words) const {
+  Outcome run(const Arguments& words) const { return run_command(words, folder_.path("")); }
+  std::string said(const Arguments& words) const {
     const Outcome outcome = run(words);
     INFO(outcome.err);
     CHECK(outcome.exit_code == 0);
     return outcome.out;
   }
-  std::string hash(const std::string& scene, Words more, const std::string& size = "60x40") const {
+  std::string hash(const std::string& scene, Arguments more, const std::string& size = "60x40") const {
     more.insert(more.begin(), {"render", scene, "--hash", "-q", "--size", size});
     return said(more);
   }
@@ -72,7 +71,7 @@ std::string metadata_of(const std::string& path, const std::string& key) {
 }
 
 /// Shares of width and height that the first object covers.
-std::pair<double, double> covered(const Folder& folder, const std::string& file) {
+std::pair<double, double> covered(const SlabFolder& folder, const std::string& file) {
   Image ids;
   for (const NamedImage& plane : read_planes(folder.path(file)))
     if (plane.name == "id.object") ids = plane.image;
@@ -88,10 +87,10 @@ std::pair<double, double> covered(const Folder& folder, const std::string& file)
 }  // namespace
 
 TEST_CASE("a model without a camera fills 80 to 90 % of pictures of every shape, from any side") {
-  const Folder folder;
+  const SlabFolder folder;
   for (const char* size : {"300x300", "360x150", "150x360"})
-    for (const Words& side : {Words{}, Words{"--orbit", "70,35"}, Words{"--fov", "60"}}) {
-      Words words{"render", "slab.obj", "--size", size, "-o", "x.exr", "--aov", "id.object", "-q"};
+    for (const Arguments& side : {Arguments{}, Arguments{"--orbit", "70,35"}, Arguments{"--fov", "60"}}) {
+      Arguments words{"render", "slab.obj", "--size", size, "-o", "x.exr", "--aov", "id.object", "-q"};
       words.insert(words.end(), side.begin(), side.end());
       folder.said(words);
       const auto [wide, high] = covered(folder, "x.exr");
@@ -102,7 +101,7 @@ TEST_CASE("a model without a camera fills 80 to 90 % of pictures of every shape,
 }
 
 TEST_CASE("pictures carry the options of the camera, and none where none is given") {
-  const Folder folder;
+  const SlabFolder folder;
   folder.said({"render", "slab.obj", "--size", "40x40", "-o", "plain.png", "-q"});
   CHECK(metadata_of(folder.path("plain.png"), "trueshade:camera") == "none");
   folder.said(
@@ -120,13 +119,13 @@ TEST_CASE("pictures carry the options of the camera, and none where none is give
 }
 
 TEST_CASE("compare judges a picture by the camera, the animation and the time that its reference was drawn with") {
-  const Folder folder;
-  const std::vector<Words> ways = {{"slab.obj", "--orbit", "30,20,80%"},
-                                   {"slab.obj"},
-                                   {"two.gltf", "--camera", "Far out", "--animation", "Left", "--time", "0.5"},
-                                   {"two.gltf", "--eye", "1,0.5,5", "--fov", "30", "--time", "0.3"}};
-  for (const Words& way : ways) {
-    Words words{"render"};
+  const SlabFolder folder;
+  const std::vector<Arguments> ways = {{"slab.obj", "--orbit", "30,20,80%"},
+                                       {"slab.obj"},
+                                       {"two.gltf", "--camera", "Far out", "--animation", "Left", "--time", "0.5"},
+                                       {"two.gltf", "--eye", "1,0.5,5", "--fov", "30", "--time", "0.3"}};
+  for (const Arguments& way : ways) {
+    Arguments words{"render"};
     words.insert(words.end(), way.begin(), way.end());
     words.insert(words.end(), {"--size", "48x24", "--preset", "many-lights", "-o", "ref.png", "-q"});
     folder.said(words);
@@ -143,9 +142,9 @@ TEST_CASE("compare judges a picture by the camera, the animation and the time th
 }
 
 TEST_CASE("a turntable is the pictures of its orbits, also as raw video, and names them as frames are named") {
-  const Folder folder;
-  const Words draw{"render", "slab.obj", "--size", "30x40", "-q"};
-  const auto with = [&](Words more) {
+  const SlabFolder folder;
+  const Arguments draw{"render", "slab.obj", "--size", "30x40", "-q"};
+  const auto with = [&](Arguments more) {
     more.insert(more.begin(), draw.begin(), draw.end());
     return folder.said(more);
   };
@@ -171,9 +170,9 @@ TEST_CASE("a turntable is the pictures of its orbits, also as raw video, and nam
 }
 
 TEST_CASE("every command that shows a scene takes the options of the camera, and shows the same") {
-  const Folder folder;
-  const Words seen{"--orbit", "40,10,90%", "--size", "40x30"};
-  const auto with = [&](Words words) {
+  const SlabFolder folder;
+  const Arguments seen{"--orbit", "40,10,90%", "--size", "40x30"};
+  const auto with = [&](Arguments words) {
     words.insert(words.end(), seen.begin(), seen.end());
     return folder.said(words);
   };
@@ -197,7 +196,7 @@ TEST_CASE("every command that shows a scene takes the options of the camera, and
 }
 
 TEST_CASE("info lists cameras and animations with their numbers and names") {
-  const Folder folder;
+  const SlabFolder folder;
   const std::string told = folder.said({"info", "two.gltf"});
   for (const char* line : {"camera 0              Front (perspective, 28.65 degrees)\n",
                            "camera 1              Far out (perspective, 28.65 degrees)\n",
@@ -208,7 +207,7 @@ TEST_CASE("info lists cameras and animations with their numbers and names") {
 }
 
 TEST_CASE("A time after a file's animations is told of, and draws their last step") {
-  const Folder folder;
+  const SlabFolder folder;
   const auto drawn = [&](const char* time) {
     return folder.run({"render", "two.gltf", "--hash", "--size", "60x40", "--time", time});
   };
@@ -220,7 +219,7 @@ TEST_CASE("A time after a file's animations is told of, and draws their last ste
 }
 
 TEST_CASE("a choice of camera and animation is drawn, with a cache too") {
-  const Folder folder;
+  const SlabFolder folder;
   const std::string first = folder.hash("two.gltf", {"--time", "1"});
   CHECK(folder.hash("two.gltf", {"--time", "1", "--camera", "Front", "--animation", "Right"}) == first);
   const std::string far = folder.hash("two.gltf", {"--time", "1", "--camera", "1"});
@@ -236,8 +235,8 @@ TEST_CASE("a choice of camera and animation is drawn, with a cache too") {
 }
 
 TEST_CASE("cameras that cannot be, and options that do not go together, end in one line with exit code 2") {
-  const Folder folder;
-  const auto refused = [&](Words more, const std::string& about) {
+  const SlabFolder folder;
+  const auto refused = [&](Arguments more, const std::string& about) {
     more.insert(more.begin(), {"render", "slab.obj", "--size", "8x8", "--hash"});
     check_refused(folder.run(more), 2, about);
   };
@@ -263,11 +262,11 @@ TEST_CASE("cameras that cannot be, and options that do not go together, end in o
 }
 
 TEST_CASE("a look from straight above is drawn, with the front at the picture's lower edge") {
-  const Folder folder;
+  const SlabFolder folder;
   folder.write("s.json", R"({"version": 1, "camera": {"eye": [0, 0, 5]}, "objects": [
     {"mesh": "cube", "position": [0, 0, 3], "scale": 0.5}, {"mesh": "cube", "position": [0, 0, -3], "scale": 0.5}]})");
-  for (const Words& above : {Words{"--orbit", "0,90"}, Words{"--eye", "0,12,0", "--look-at", "0,0,0"}}) {
-    Words words{"render", "s.json", "--size", "40x40", "-o", "x.exr", "--aov", "id.object", "-q"};
+  for (const Arguments& above : {Arguments{"--orbit", "0,90"}, Arguments{"--eye", "0,12,0", "--look-at", "0,0,0"}}) {
+    Arguments words{"render", "s.json", "--size", "40x40", "-o", "x.exr", "--aov", "id.object", "-q"};
     words.insert(words.end(), above.begin(), above.end());
     folder.said(words);
     for (const NamedImage& plane : read_planes(folder.path("x.exr")))

@@ -4,6 +4,7 @@
 
 #include "tests/cli/drawn_capture.h"
 #include "tests/cli/refused.h"
+#include "tests/file_contents.h"
 
 namespace trueshade {
 
@@ -11,12 +12,12 @@ TEST_CASE("One scene captured in each kind of file is judged the same") {
   const DrawnCapture c;
   const nlohmann::json expected = c.counts({"--gbuffer", "c.exr"});
   CHECK(violations(expected) == 0);
-  const auto check = [&](const char* route, const Words& options) {
+  const auto check = [&](const char* route, const Arguments& options) {
     INFO(route);
     CHECK(c.counts(options) == expected);
   };
-  const Words xyz = {"P.X", "P.Y", "P.Z"}, nxyz = {"N.X", "N.Y", "N.Z"}, rgba = {"R", "G", "B", "A"},
-              albedo = {"albedo.R", "albedo.G", "albedo.B", "albedo.A"};
+  const Arguments xyz = {"P.X", "P.Y", "P.Z"}, nxyz = {"N.X", "N.Y", "N.Z"}, rgba = {"R", "G", "B", "A"},
+                  albedo = {"albedo.R", "albedo.G", "albedo.B", "albedo.A"};
 
   const std::vector<EnginePart> parts = {
       {"geometry", xyz, "float", &c.position},   {"normals", nxyz, "float", &c.normal},
@@ -26,7 +27,7 @@ TEST_CASE("One scene captured in each kind of file is judged the same") {
   check("parts of an EXR", {"--gbuffer", "parts.exr"});
   write_exr_parts(c.path("tiles.exr"), parts, 32);
   check("parts of an EXR in tiles", {"--gbuffer", "tiles.exr"});
-  Words files;
+  Arguments files;
   for (const EnginePart& part : parts) {
     write_exr_parts(c.path(part.name + ".exr"), {{"", part.channels, part.type, part.plane}},
                     part.name == "z" ? 16 : 0);
@@ -72,9 +73,9 @@ TEST_CASE("One scene captured in each kind of file is judged the same") {
       write_npy(c.path("lit.npy"), repacked(c.color, 4, codes), "|u1", fortran);
       check(".npy", {"--map", npy_map});
     }
-  write_bytes(c.path("map.txt"),
-              "# the engine's targets\nposition = p.npy\nnormal=n.npy  # world space\n"
-              "albedo=a.npy\ndepth=d.npy, id.object=i.npy\ncolor=lit.npy\n");
+  c.folder.write("map.txt",
+                 "# the engine's targets\nposition = p.npy\nnormal=n.npy  # world space\n"
+                 "albedo=a.npy\ndepth=d.npy, id.object=i.npy\ncolor=lit.npy\n");
   check("a map in a file", {"--map", "@map.txt"});
   std::filesystem::create_directory(c.path("sub"));
   for (const char* name : {"p.npy", "n.npy", "a.npy", "d.npy", "i.npy", "lit.npy", "map.txt"})
@@ -161,7 +162,7 @@ TEST_CASE("A wrong map is convicted or refused") {
   check_map_refused("normal=none.exr.RGB", 5, "none.exr");
   check_map_refused("normal=c.N.XYZ,normal=c.N.XYZ", 2, "plane normal is named twice");
   check_map_refused("@none.txt", 5, "none.txt");
-  write_bytes(c.path("map.txt"), "position\nnormal=c.N.XYZ:wiev\n");
+  c.folder.write("map.txt", "position\nnormal=c.N.XYZ:wiev\n");
   check_map_refused("@map.txt", 3, "map.txt: line 2: there is no word 'wiev'");
 }
 
@@ -198,16 +199,16 @@ TEST_CASE("A bad file of a capture is refused in one line, and no report is left
     check_refused(c.judge({"--gbuffer", "c.exr", "--map", map, "-o", "v.html"}), code, about);
     CHECK_FALSE(std::filesystem::exists(c.path("v.html")));
   };
-  const Words rgb = {"R", "G", "B"};
+  const Arguments rgb = {"R", "G", "B"};
   write_exr_parts(c.path("n.exr"), {{"", rgb, "float", &c.normal}});
   write_npy(c.path("n.npy"), c.normal, "<f4");
   write_tiff(c.path("n.tif"), c.normal, "float", "zip");
   write_dds(c.path("n.dds"), c.normal, 2);
   for (const std::string name : {"n.exr", "n.npy", "n.tif", "n.dds"}) {
-    const std::string whole = bytes_of(c.path(name));
+    const std::string whole = contents(c.path(name));
     for (const double share : {0.0, 0.001, 0.01, 0.5, 0.98}) {
       INFO(name << " cut to " << share);
-      write_bytes(c.path("torn" + name), whole.substr(0, size_t(share * double(whole.size()))));
+      c.folder.write("torn" + name, whole.substr(0, size_t(share * double(whole.size()))));
       check_bad("torn" + name + ".RGB", 3, "torn" + name);
     }
   }
@@ -223,16 +224,16 @@ TEST_CASE("A bad file of a capture is refused in one line, and no report is left
   write_exr_parts(c.path("hd.exr"), {{"", {"R"}, "half", &c.depth}});
   check_refused(c.judge({"--gbuffer", "c.exr", "--map", "position,normal,depth=hd.exr.R", "-o", "v.html"}), 3,
                 "depth is stored as half, and the pipeline's as d32f");
-  write_bytes(c.path("x.npy"), std::string("\x93NUMPY\x01\x00\x10\x00{'descr': '<f4'}", 26));
+  c.folder.write("x.npy", std::string("\x93NUMPY\x01\x00\x10\x00{'descr': '<f4'}", 26));
   check_bad("x.npy", 3, "x.npy");
-  write_bytes(c.path("x.jpg"), "\xff\xd8\xff\xe0 and more");
+  c.folder.write("x.jpg", "\xff\xd8\xff\xe0 and more");
   check_refused(c.judge({"--gbuffer", "x.jpg"}), 3, "it is JPEG, which does not keep a plane's values");
   check_refused(c.judge({"--map", "rows=bottom_up"}), 3, "it names no plane, and there is no file of planes");
 }
 
 TEST_CASE("A fourth channel beside a plane of three is left out where it says nothing, and refused where it does") {
   const DrawnCapture c;
-  write_bytes(c.path("p.json"), R"({"gbuffer": {"albedo": {"format": "rgb16f"}}})");
+  c.folder.write("p.json", R"({"gbuffer": {"albedo": {"format": "rgb16f"}}})");
   const Outcome drawn = run_command({"render", kScene, "--size", "120x90", "--pipeline", "p.json", "-o", "h.exr",
                                      "--aov", "depth,position,normal,albedo,id.object"},
                                     c.path(""));

@@ -2,7 +2,6 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -10,6 +9,7 @@
 #include "cli/limit_options.h"
 #include "cli/option_values.h"
 #include "tests/cli/refused.h"
+#include "tests/file_contents.h"
 #include "tests/scratch_folder.h"
 
 namespace trueshade {
@@ -19,11 +19,6 @@ using nlohmann::json;
 
 constexpr const char* kCommands[] = {"render",  "info",  "list",    "glsl", "export", "validate", "shade",
                                      "explain", "bench", "compare", "view", "batch",  "man",      "completion"};
-
-std::string file_bytes(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::string answer(const std::vector<std::string>& arguments, const std::string& folder = ".",
                    const std::string& setup = "true") {
@@ -71,7 +66,7 @@ TEST_CASE("Limits stand in a help of their own, which --help names, and in man p
   answer({"man", "man1"}, folder.path(""));
   for (const std::string command : {"render", "info", "validate", "bench", "compare", "export"}) {
     const std::string help = answer({command, "--help"}),
-                      page = file_bytes(folder.path("man1/trueshade-" + command + ".1"));
+                      page = contents(folder.path("man1/trueshade-" + command + ".1"));
     INFO(command);
     CHECK(help.find("\n  --help-limits ") != std::string::npos);
     CHECK(answer({command, "--help-limits"}) == limits);
@@ -93,11 +88,11 @@ TEST_CASE("One man page is written where -o says") {
   CHECK(answer({"man", "-o", "all"}, at).starts_with("all/trueshade.1\nall/trueshade-render.1\n"));
   CHECK(answer({"man", "-o", "one/mine.1"}, at).starts_with("wrote one/mine.1 (manual page, "));
   CHECK(answer({"man", "--command", "shade", "-q", "-o", "shade.1"}, at).empty());
-  const std::string page = file_bytes(folder.path("man1/trueshade.1"));
-  CHECK(file_bytes(folder.path("all/trueshade.1")) == page);
-  CHECK(file_bytes(folder.path("one/mine.1")) == page);
+  const std::string page = contents(folder.path("man1/trueshade.1"));
+  CHECK(contents(folder.path("all/trueshade.1")) == page);
+  CHECK(contents(folder.path("one/mine.1")) == page);
   CHECK(answer({"man", "-o", "-"}, at) == page);
-  CHECK(file_bytes(folder.path("shade.1")) == file_bytes(folder.path("man1/trueshade-shade.1")));
+  CHECK(contents(folder.path("shade.1")) == contents(folder.path("man1/trueshade-shade.1")));
   const auto refused = [&at](const std::vector<std::string>& words, const std::string& about) {
     check_refused(run_command(words, at), 2, about);
   };
@@ -142,8 +137,8 @@ TEST_CASE("Options are read as other programs read them") {
   CHECK(answer({"render", "builtin:cornell", "--size", "16x12", "-o", "a.png", "-q"}, at).empty());
   CHECK(answer({"render", "builtin:cornell", "--size", "16x12", "-qob.png"}, at).empty());
   CHECK(answer({"render", "builtin:cornell", "--size", "16x12", "-q", "--output=c.png"}, at).empty());
-  CHECK(file_bytes(folder.path("a.png")) == file_bytes(folder.path("b.png")));
-  CHECK(file_bytes(folder.path("a.png")) == file_bytes(folder.path("c.png")));
+  CHECK(contents(folder.path("a.png")) == contents(folder.path("b.png")));
+  CHECK(contents(folder.path("a.png")) == contents(folder.path("c.png")));
   const auto refused = [](const std::vector<std::string>& arguments, const std::string& about) {
     check_refused(run_command(arguments), 2, about);
   };
@@ -239,8 +234,8 @@ TEST_CASE("Pictures and scenes go through standard output and input") {
     return more;
   };
   answer(with({"-q", "-o", "a.png", "-o", "a.exr", "--aov", "depth"}), at);
-  CHECK(answer(with({"-o", "-"}), at) == file_bytes(folder.path("a.png")));
-  CHECK(answer(with({"-o", "-.exr", "--aov", "depth", "-q"}), at) == file_bytes(folder.path("a.exr")));
+  CHECK(answer(with({"-o", "-"}), at) == contents(folder.path("a.png")));
+  CHECK(answer(with({"-o", "-.exr", "--aov", "depth", "-q"}), at) == contents(folder.path("a.exr")));
   const std::string page = answer(with({"-o", "-.html"}), at);
   CHECK(page.starts_with("<!doctype html>"));
   CHECK(page.ends_with("</html>\n"));
@@ -308,7 +303,7 @@ TEST_CASE("Only a terminal is written to in colours, and none where nobody wants
     const std::string line = "cd '" + folder.path("") + "' && env " + variables +
                              " script -qec '" TRUESHADE_COMMAND " rendr' shown >/dev/null 2>&1 </dev/null";
     CHECK(WEXITSTATUS(std::system(line.c_str())) == 2);
-    return file_bytes(folder.path("shown"));
+    return contents(folder.path("shown"));
   };
   if (std::system("command -v script >/dev/null") != 0) {
     WARN("SKIPPED: script of bsdutils is absent");

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -15,7 +13,9 @@
 #include "tests/cli/engine_capture.h"
 #include "tests/cli/refused.h"
 #include "tests/cli/run_command.h"
+#include "tests/file_contents.h"
 #include "tests/scratch_folder.h"
+#include "tests/text_parts.h"
 
 namespace trueshade {
 namespace {
@@ -39,11 +39,6 @@ void write_floats(const std::string& path, const EnginePlane& plane, std::vector
   REQUIRE(output->close());
 }
 const std::vector<std::string> kRgb = {"R", "G", "B"};
-
-std::string content_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 bool says(const Outcome& outcome, const std::string& text) {
   INFO(outcome.out << outcome.err);
@@ -191,7 +186,7 @@ TEST_CASE("where the reference carries its scene, pictures are judged by it, and
   folder.write("scene.json", R"({"version": 1, "camera": {"eye": [0, 3, 4], "target": [0, 0, 0]},
     "objects": [{"mesh": "plane", "color": [0.8, 0.7, 0.6], "scale": 10}],
     "lights": [{"type": "point", "position": [0, 2, 0], "color": [1, 1, 1], "intensity": 0.8, "range": 6}]})");
-  std::string dim = content_of(folder.path("scene.json"));
+  std::string dim = contents(folder.path("scene.json"));
   dim.replace(dim.find("0.8, \"range\""), 3, "0.4");
   folder.write("dim.json", dim);
   const auto render = [&](const std::string& scene, const std::string& output) {
@@ -243,7 +238,7 @@ TEST_CASE(
     const Outcome outcome =
         run_command({"compare", "../pictures/ref.png", "../pictures/test.png", "-o", "page.html"}, folder.path("work"));
     CHECK(outcome.exit_code == 1);
-    CHECK((outcome.out + outcome.err + content_of(folder.path("work/page.html"))).find("the_secret_key") ==
+    CHECK((outcome.out + outcome.err + contents(folder.path("work/page.html"))).find("the_secret_key") ==
           std::string::npos);
     return outcome;
   };
@@ -310,7 +305,7 @@ TEST_CASE("sizes that differ are a verdict although a map was asked for, and the
     CHECK(outcome.exit_code == 1);
     CHECK(outcome.err.find("is not written: ") != std::string::npos);
     CHECK_FALSE(std::filesystem::exists(folder.path(map)));
-    CHECK(content_of(folder.path("j.xml")).find("<failure") != std::string::npos);
+    CHECK(contents(folder.path("j.xml")).find("<failure") != std::string::npos);
   }
 }
 
@@ -329,16 +324,9 @@ TEST_CASE("folders behind links are compared too, links that lead back end, and 
   says(outcome, "link/a.exr");
   says(outcome, "worst at 0,0: R 0.25 against 0.5, G 0.25 against 0.5");
   // The report shows what a reader needs: the pixel and both values.
-  CHECK(content_of(folder.path("j.xml")).find("first pixel at 0,0") != std::string::npos);
+  CHECK(contents(folder.path("j.xml")).find("first pixel at 0,0") != std::string::npos);
   check_refused(run_compare(folder, {"ref", "test", "-o", "map.png"}), 2, "is named like a file");
   CHECK_FALSE(fs::exists(folder.path("map.png")));
-}
-
-/// How often a text holds another.
-size_t count_of(const std::string& text, const std::string& part) {
-  size_t count = 0;
-  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
 }
 
 TEST_CASE("a gallery of two folders shows each picture, the worst first, and leads to a page of each that differs") {
@@ -357,7 +345,7 @@ TEST_CASE("a gallery of two folders shows each picture, the worst first, and lea
   const Outcome outcome = run_compare(folder, {"ref", "test", "--no-judge", "-o", "report/all.html", "-o", "maps"});
   CHECK(outcome.exit_code == 3);  // of the file that cannot be read
   says(outcome, "wrote report/all.html (HTML report");
-  const std::string html = content_of(folder.path("report/all.html"));
+  const std::string html = contents(folder.path("report/all.html"));
   CHECK(html.find("5 of 6 pictures do not pass") != std::string::npos);
   size_t before = 0;
   for (const char* state : {"unreadable", "extra", "missing", "mismatched", "different", "same"}) {
@@ -375,7 +363,7 @@ TEST_CASE("a gallery of two folders shows each picture, the worst first, and lea
   CHECK(html.find("in/a &lt;b&gt; &amp; 50%#&quot;.exr") != std::string::npos);
   CHECK(html.find("<b> &") == std::string::npos);
   CHECK(html.find("href=\"../maps/in/a%20%3Cb%3E%20%26%2050%25%23%22.exr.html\"") != std::string::npos);
-  const std::string page = content_of(folder.path("maps/" + odd + ".html"));
+  const std::string page = contents(folder.path("maps/" + odd + ".html"));
   CHECK(page.find("64 of 64 pixels differ, by 0.25 at most") != std::string::npos);
   CHECK_FALSE(fs::exists(folder.path("maps/same.exr.html")));
   // Without a gallery there are maps alone, and a gallery alone writes nothing else.
@@ -406,7 +394,7 @@ TEST_CASE("a gallery of pictures that are noise has the bytes that it may have")
 TEST_CASE("bad input to compare is one line, and leaves nothing behind") {
   ScratchFolder folder;
   with_pair(folder, [](EnginePlane&) {});
-  const std::string exr = content_of(folder.path("ref.exr"));
+  const std::string exr = contents(folder.path("ref.exr"));
   folder.write("torn.exr", exr.substr(0, exr.size() / 2));
   folder.write("empty.png", "");
   folder.write("text.png", "no picture\n");
@@ -529,8 +517,8 @@ TEST_CASE(
   CHECK(outcome.exit_code == 1);  // a reference that has no test picture is not deleted
   says(outcome, "2 accepted");
   says(outcome, "delete the reference by hand if it is to go");
-  CHECK(content_of(folder.path("ref/b/differs.exr")) == content_of(folder.path("test/b/differs.exr")));
-  CHECK(content_of(folder.path("ref/extra.exr")) == content_of(folder.path("test/extra.exr")));
+  CHECK(contents(folder.path("ref/b/differs.exr")) == contents(folder.path("test/b/differs.exr")));
+  CHECK(contents(folder.path("ref/extra.exr")) == contents(folder.path("test/extra.exr")));
   std::filesystem::remove(folder.path("ref/missing.exr"));
   CHECK(run_compare(folder, {"ref", "test"}).exit_code == 0);
 }
@@ -541,7 +529,7 @@ TEST_CASE("compare --accept makes the folder of references that is not there yet
   const Outcome outcome = run_compare(folder, {"new/golden", "test", "--accept"});
   CHECK(outcome.exit_code == 0);
   says(outcome, "3 accepted");
-  CHECK(content_of(folder.path("new/golden/extra.exr")) == content_of(folder.path("test/extra.exr")));
+  CHECK(contents(folder.path("new/golden/extra.exr")) == contents(folder.path("test/extra.exr")));
   CHECK(run_compare(folder, {"new/golden", "test"}).exit_code == 0);
   CHECK(run_compare(folder, {"absent", "test"}).exit_code == 5);
   std::filesystem::create_directories(folder.path("empty"));
@@ -561,7 +549,7 @@ TEST_CASE("pictures that do not fit together meet no criterion") {
 TEST_CASE("compare --accept writes through no link, neither of a picture nor of a folder") {
   const ScratchFolder folder;
   write_folders(folder);
-  const std::string test = content_of(folder.path("test/b/differs.exr"));
+  const std::string test = contents(folder.path("test/b/differs.exr"));
   folder.write("elsewhere/differs.exr", "mine");
   folder.write("elsewhere/kept.exr", "mine");
   std::filesystem::remove_all(folder.path("ref/b"));
@@ -570,8 +558,8 @@ TEST_CASE("compare --accept writes through no link, neither of a picture nor of 
   const Outcome folders = run_compare(folder, {"ref", "test", "--accept"});
   CHECK(folders.exit_code == 3);
   says(folders, "no picture is accepted through a link");
-  CHECK(content_of(folder.path("elsewhere/differs.exr")) == "mine");
-  CHECK(content_of(folder.path("ref/extra.exr")) == content_of(folder.path("test/extra.exr")));
+  CHECK(contents(folder.path("elsewhere/differs.exr")) == "mine");
+  CHECK(contents(folder.path("ref/extra.exr")) == contents(folder.path("test/extra.exr")));
   std::filesystem::remove(folder.path("elsewhere/kept.exr"));
   for (const char* made : {"link.exr", "ref/link.exr"}) {
     std::filesystem::remove(folder.path(made));
@@ -587,22 +575,22 @@ TEST_CASE(
     "one") {
   ScratchFolder folder;
   with_pair(folder, [](EnginePlane& plane) { plane.at(2, 3, 1) = kNan; });
-  const std::string before = content_of(folder.path("ref.exr"));
+  const std::string before = contents(folder.path("ref.exr"));
   check_refused(run_compare(folder, {"ref.exr", "test.exr", "--accept"}), 3, "channel G is not finite at 2,3");
-  CHECK(content_of(folder.path("ref.exr")) == before);
+  CHECK(contents(folder.path("ref.exr")) == before);
   check_refused(run_compare(folder, {"new.exr", "test.exr", "--accept"}), 3, "channel G is not finite at 2,3");
   CHECK_FALSE(std::filesystem::exists(folder.path("new.exr")));
   const Outcome first = run_compare(folder, {"made/new.exr", "ref.exr", "--accept"});
   CHECK(first.exit_code == 0);
-  CHECK(content_of(folder.path("made/new.exr")) == before);
+  CHECK(contents(folder.path("made/new.exr")) == before);
 
   folder.write("r/x.exr", before.substr(0, 200));
   folder.write("t/x.exr", before);
   folder.write("r/y.exr", before);
   folder.write("t/y.exr", before.substr(0, 200));
   CHECK(run_compare(folder, {"r", "t", "--accept"}).exit_code == 3);
-  CHECK(content_of(folder.path("r/x.exr")) == before);
-  CHECK(content_of(folder.path("r/y.exr")) == before);
+  CHECK(contents(folder.path("r/x.exr")) == before);
+  CHECK(contents(folder.path("r/y.exr")) == before);
 }
 
 TEST_CASE("compare --junit writes a testcase a picture, and names that XML has to escape are escaped") {
@@ -612,7 +600,7 @@ TEST_CASE("compare --junit writes a testcase a picture, and names that XML has t
   folder.write("ref/torn.exr", "no picture");
   folder.write("test/torn.exr", "no picture");
   CHECK(run_compare(folder, {"ref", "test", "--junit", "junit.xml"}).exit_code == 3);
-  const std::string xml = content_of(folder.path("junit.xml"));
+  const std::string xml = contents(folder.path("junit.xml"));
   CHECK(xml.starts_with("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites "));
   CHECK(xml.find("tests=\"5\" failures=\"3\" errors=\"1\"") != std::string::npos);
   CHECK(xml.find("name=\"&lt;a&gt; &amp; &quot;b&quot;.exr\"") != std::string::npos);
@@ -666,7 +654,7 @@ TEST_CASE("a picture that passes by now leaves no map and no page of an earlier 
   CHECK(run() == 1);  // one is missing, and one more
   CHECK_FALSE(std::filesystem::exists(map));
   CHECK_FALSE(std::filesystem::exists(page));
-  CHECK(content_of(folder.path("maps/b/mine.png")) == "mine");
+  CHECK(contents(folder.path("maps/b/mine.png")) == "mine");
 
   // What others have under such names stays, and so does what a link leads to.
   folder.write("maps/b/differs.exr.flip.png", "mine");
@@ -675,9 +663,9 @@ TEST_CASE("a picture that passes by now leaves no map and no page of an earlier 
   std::filesystem::remove_all(folder.path("maps/a"));
   std::filesystem::create_directory_symlink("../elsewhere", folder.path("maps/a"));
   CHECK(run() == 1);
-  CHECK(content_of(map) == "mine");
-  CHECK(content_of(page) == "mine");
-  CHECK(content_of(folder.path("elsewhere/same.exr.html")) == "mine");
+  CHECK(contents(map) == "mine");
+  CHECK(contents(page) == "mine");
+  CHECK(contents(folder.path("elsewhere/same.exr.html")) == "mine");
   std::filesystem::remove(folder.path("maps/a"));
 
   // The map of a picture whose test is gone is removed too.

@@ -1,7 +1,5 @@
 #pragma once
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -15,8 +13,6 @@
 
 // A frame of ours as the capture of an engine, and how engines pack it.
 namespace trueshade {
-
-using Words = std::vector<std::string>;
 
 // A camera that looks askew, so that no space is another's; a background; edges, round and flat surfaces.
 inline constexpr const char* kScene = "s.json";
@@ -61,14 +57,14 @@ struct DrawnCapture {
   bool covered(int x, int y) const { return object.at(x, y, 0) != 0; }
   std::string path(const std::string& name) const { return folder.path(name); }
 
-  Outcome judge(Words options) const {
-    Words words = {"validate", kScene, "--quick", "--json"};
+  Outcome judge(Arguments options) const {
+    Arguments words = {"validate", kScene, "--quick", "--json"};
     words.insert(words.end(), options.begin(), options.end());
     return run_command(words, folder.path(""));
   }
 
   /// Classes of pixels by stage.
-  nlohmann::json counts(const Words& options) const {
+  nlohmann::json counts(const Arguments& options) const {
     const Outcome outcome = judge(options);
     INFO(outcome.err);
     REQUIRE((outcome.exit_code == 0 || outcome.exit_code == 1));
@@ -134,15 +130,6 @@ inline void spheremap(const double* n, double* e) {
   if (length == 0) return;
   const double f = std::sqrt(8 * n[2] / length + 8);
   e[0] = n[0] / length / f + 0.5, e[1] = n[1] / length / f + 0.5;
-}
-
-inline std::string bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-inline void write_bytes(const std::string& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary) << bytes;
 }
 
 }  // namespace trueshade

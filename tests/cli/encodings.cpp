@@ -6,12 +6,12 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 
 #include "core/image_files/image_io.h"
 #include "core/image_files/png_codes.h"
 #include "tests/catch.hpp"
 #include "tests/cli/run_command.h"
+#include "tests/file_contents.h"
 #include "tests/scratch_folder.h"
 
 namespace trueshade {
@@ -70,7 +70,7 @@ std::string outline_of(const Bytes& png) {
 const std::string kTaggedSrgb = "IHDR sRGB:0 gAMA:45455 IDAT IEND", kTaggedLinear = "IHDR gAMA:100000 IDAT IEND";
 
 /// The codes of a PNG, channel after channel, by OpenImageIO.
-std::vector<int> codes_of(const ScratchFolder& folder, const Bytes& png) {
+std::vector<int> png_codes(const ScratchFolder& folder, const Bytes& png) {
   const std::string path = folder.path("codes.png");
   std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(png.data()), std::streamsize(png.size()));
   OIIO::ImageSpec config;
@@ -118,7 +118,7 @@ long double shown_by(const DisplayTransform& display, long double light) {
 void check_codes(const ScratchFolder& folder, const Image& image, const Bytes& png, Expected expected,
                  const DisplayTransform& display = {}) {
   const FormatInfo layout = info(image.format);
-  const std::vector<int> codes = codes_of(folder, png);
+  const std::vector<int> codes = png_codes(folder, png);
   REQUIRE(codes.size() == size_t(image.width * image.height * layout.channels));
   const bool deep = layout.number_class == NumberClass::unorm && layout.bits[0] > 8;
   const long double most = deep ? 65535 : 255;
@@ -250,10 +250,7 @@ TEST_CASE("an EXR holds the target's values under every encoding, and says what 
     }
     for (const PngEncoding encoding : {PngEncoding::srgb, PngEncoding::raw}) {
       write_image(folder.path("y.exr"), image, planes, {}, encoded_as(encoding));
-      const auto bytes = [&](const char* name) {
-        std::ifstream file(folder.path(name), std::ios::binary);
-        return std::string(std::istreambuf_iterator<char>(file), {});
-      };
+      const auto bytes = [&](const char* name) { return contents(folder.path(name)); };
       CHECK(bytes("x.exr") == bytes("y.exr"));
     }
   }
@@ -279,7 +276,7 @@ TEST_CASE("files of every size are read back whole, noise and flat colour alike"
       CHECK(read_planes(folder.path("x.exr"))[0].image.texels == image.texels);
       write_image(folder.path("x.png"), codes, {}, {});
       CHECK(read_planes(folder.path("x.png"))[0].image.texels == codes.texels);
-      CHECK(codes_of(folder, encode_png(codes, {})) == std::vector<int>(codes.texels.begin(), codes.texels.end()));
+      CHECK(png_codes(folder, encode_png(codes, {})) == std::vector<int>(codes.texels.begin(), codes.texels.end()));
     }
 }
 
@@ -289,10 +286,10 @@ double mean_of(const ScratchFolder& folder, std::vector<std::string> options, co
   const Outcome outcome = run_command(options, folder.path(""));
   INFO(outcome.err);
   REQUIRE(outcome.exit_code == 0);
-  std::ifstream file(folder.path("x.png"), std::ios::binary);
-  const Bytes png{std::istreambuf_iterator<char>(file), {}};
+  const std::string file = contents(folder.path("x.png"));
+  const Bytes png(file.begin(), file.end());
   CHECK(outline_of(png) == outline);
-  const std::vector<int> codes = codes_of(folder, png);
+  const std::vector<int> codes = png_codes(folder, png);
   double sum = 0.0;
   for (size_t i = 0; i < codes.size(); ++i) sum += i % 4 == 3 ? 0.0 : codes[i];
   return sum / 255.0 / double(codes.size() / 4 * 3);

@@ -5,6 +5,7 @@
 #include "core/image_files/image_io.h"
 #include "tests/cli/drawn_capture.h"
 #include "tests/cli/refused.h"
+#include "tests/file_contents.h"
 
 namespace trueshade {
 namespace {
@@ -25,13 +26,13 @@ std::string codes_at(const std::string& path, int x, int y) {
 
 TEST_CASE("the last line of explain is the pixel that render stores, as text and as JSON") {
   const ScratchFolder folder;
-  const Words how = {"builtin:lecture", "--preset", "redsdk", "--size", "80x60"};
-  Words render = {"render"}, explain = {"explain"};
+  const Arguments how = {"builtin:lecture", "--preset", "redsdk", "--size", "80x60"};
+  Arguments render = {"render"}, explain = {"explain"};
   render.insert(render.end(), how.begin(), how.end()), explain.insert(explain.end(), how.begin(), how.end());
   for (const char* word : {"-o", "a.png", "-q"}) render.emplace_back(word);
   REQUIRE(run_command(render, folder.path("")).exit_code == 0);
   for (const auto& [x, y] : {std::pair{0, 0}, {40, 30}, {79, 59}, {13, 44}}) {
-    Words words = explain;
+    Arguments words = explain;
     words.insert(words.end(), {"--pixel", std::to_string(x) + ',' + std::to_string(y)});
     const Outcome told = run_command(words, folder.path(""));
     const std::string codes = codes_at(folder.path("a.png"), x, y);
@@ -90,7 +91,7 @@ vec3 light(Surface s, Light l, View v) {
   if (dot(d, s.normal) <= 0.0) return vec3(0.0);
   return s.albedo.rgb * l.color * (gain / (1.0 + dot(d, d)));
 })";
-Words lit_by_program(const char* command) {
+Arguments lit_by_program(const char* command) {
   return {command,  "builtin:cornell",   "--size",   "64x64",    "--light-shader",
           "p.glsl", "--light-parameter", "gain=0.5", "--target", "rgba32f"};
 }
@@ -155,9 +156,10 @@ TEST_CASE("explain says of a pixel that is no number where it became none, and w
   };
   for (const auto& row : rows) {
     INFO(row.what);
-    write_bytes(folder.path("n.glsl"), row.text);
-    const Words words{"explain", "builtin:cornell", "--size",   "64x64",      "--pixel",    "30,40", "--light-shader",
-                      "n.glsl",  "--target",        row.target, "--strategy", row.strategy, "-q"};
+    folder.write("n.glsl", row.text);
+    const Arguments words{"explain",    "builtin:cornell", "--size", "64x64",    "--pixel",
+                          "30,40",      "--light-shader",  "n.glsl", "--target", row.target,
+                          "--strategy", row.strategy,      "-q"};
     const Outcome told = run_command(words, folder.path(""));
     INFO(told.err << told.out.substr(0, 1500));
     REQUIRE(told.exit_code == 0);
@@ -168,9 +170,9 @@ TEST_CASE("explain says of a pixel that is no number where it became none, and w
 
 TEST_CASE("explain tells each line of a light program that the strongest light comes from, and all lights with --all") {
   const ScratchFolder folder;
-  write_bytes(folder.path("p.glsl"), kProgram);
+  folder.write("p.glsl", kProgram);
   for (const bool all : {false, true}) {
-    Words words = lit_by_program("explain");
+    Arguments words = lit_by_program("explain");
     words.insert(words.end(), {"--pixel", "30,40", "--json", "-q"});
     if (all) words.emplace_back("--all");
     const Outcome told = run_command(words, folder.path(""));
@@ -204,7 +206,7 @@ TEST_CASE("explain tells each line of a light program that the strongest light c
     CHECK(adding > 1);
     CHECK((all ? traced > adding : traced == 1));
   }
-  Words words = lit_by_program("explain");
+  Arguments words = lit_by_program("explain");
   words.insert(words.end(), {"--pixel", "30,40", "-q"});
   const Outcome told = run_command(words, folder.path(""));
   INFO(told.out);
@@ -236,8 +238,8 @@ TEST_CASE("explain tells the extents of a light with an area, and which surfaces
 
 TEST_CASE("explain tells where another picture's value comes from under a light program") {
   const ScratchFolder folder;
-  write_bytes(folder.path("p.glsl"), kProgram);
-  Words render = lit_by_program("render"), explain = lit_by_program("explain");
+  folder.write("p.glsl", kProgram);
+  Arguments render = lit_by_program("render"), explain = lit_by_program("explain");
   render.insert(render.end(), {"-o", "same.exr", "-q"});
   REQUIRE(run_command(render, folder.path("")).exit_code == 0);
   REQUIRE(run_command({"render", "builtin:cornell", "--size", "64x64", "--target", "rgba32f", "--preset",
@@ -245,7 +247,7 @@ TEST_CASE("explain tells where another picture's value comes from under a light 
                       folder.path(""))
               .exit_code == 0);
   explain.insert(explain.end(), {"--pixel", "30,40", "-q", "--against"});
-  Words same = explain, other = explain;
+  Arguments same = explain, other = explain;
   same.emplace_back("same.exr"), other.emplace_back("other.exr");
   const Outcome of_same = run_command(same, folder.path("")), of_other = run_command(other, folder.path(""));
   INFO(of_same.err << of_other.err << of_same.out.substr(of_same.out.find("same.exr")) << of_other.out);
@@ -257,9 +259,9 @@ TEST_CASE("explain tells where another picture's value comes from under a light 
 
 TEST_CASE("explain follows time and profile as render does") {
   const ScratchFolder folder;
-  const Words how = {"builtin:circle",     "--size",     "64x48",           "--time", "1.5", "--profile",
-                     "mesa-llvmpipe-22.3", "--strategy", "deferred-volumes"};
-  Words render = {"render"}, explain = {"explain"};
+  const Arguments how = {"builtin:circle",     "--size",     "64x48",           "--time", "1.5", "--profile",
+                         "mesa-llvmpipe-22.3", "--strategy", "deferred-volumes"};
+  Arguments render = {"render"}, explain = {"explain"};
   render.insert(render.end(), how.begin(), how.end()), explain.insert(explain.end(), how.begin(), how.end());
   for (const char* word : {"-o", "a.png", "-q"}) render.emplace_back(word);
   for (const char* word : {"--pixel", "32,20", "-q"}) explain.emplace_back(word);
@@ -271,10 +273,9 @@ TEST_CASE("explain follows time and profile as render does") {
 
 TEST_CASE("explain ends in the picture's value where a post chain follows the target") {
   const ScratchFolder folder;
-  write_bytes(folder.path("p.json"),
-              R"({"post": {"samples": 2, "tone_map": "reinhard", "encode": "srgb", "output": "rgba8"}})");
-  const Words how = {"builtin:cornell", "--pipeline", "p.json", "--size", "40x30"};
-  Words render = {"render"}, explain = {"explain"};
+  folder.write("p.json", R"({"post": {"samples": 2, "tone_map": "reinhard", "encode": "srgb", "output": "rgba8"}})");
+  const Arguments how = {"builtin:cornell", "--pipeline", "p.json", "--size", "40x30"};
+  Arguments render = {"render"}, explain = {"explain"};
   render.insert(render.end(), how.begin(), how.end()), explain.insert(explain.end(), how.begin(), how.end());
   for (const char* word : {"-o", "a.png", "-q"}) render.emplace_back(word);
   for (const char* word : {"--pixel", "20,15"}) explain.emplace_back(word);
@@ -292,10 +293,10 @@ TEST_CASE("explain ends in the picture's value where a post chain follows the ta
 
 TEST_CASE("explain says whether another picture's value is legal, and what makes it") {
   const DrawnCapture c;
-  Words dull = {"render", kScene, "--size", "120x90", "--preset", "light-volumes", "-o", "dull.png", "-q"};
+  Arguments dull = {"render", kScene, "--size", "120x90", "--preset", "light-volumes", "-o", "dull.png", "-q"};
   REQUIRE(run_command(dull, c.path("")).exit_code == 0);
-  const Words explain = {"explain", kScene, "--size", "120x90", "--pixel", "60,45", "--against"};
-  Words same = explain, other = explain;
+  const Arguments explain = {"explain", kScene, "--size", "120x90", "--pixel", "60,45", "--against"};
+  Arguments same = explain, other = explain;
   same.emplace_back("c.exr"), other.emplace_back("dull.png");
   const Outcome of_same = run_command(same, c.path("")), of_other = run_command(other, c.path(""));
   INFO(of_same.err << of_other.err << of_other.out);
@@ -307,8 +308,8 @@ TEST_CASE("explain says whether another picture's value is legal, and what makes
 
 TEST_CASE("explain refuses what names no pixel and what is no picture, in one line") {
   const DrawnCapture c;
-  const auto refused = [&](const Words& words, int code, const std::string& about) {
-    Words all = {"explain"};
+  const auto refused = [&](const Arguments& words, int code, const std::string& about) {
+    Arguments all = {"explain"};
     all.insert(all.end(), words.begin(), words.end());
     check_refused(run_command(all, c.path("")), code, about);
   };
@@ -318,22 +319,22 @@ TEST_CASE("explain refuses what names no pixel and what is no picture, in one li
   refused({kScene, "--pixel", "1,2,3"}, 2, "'1,2,3' is not a pixel");
   refused({kScene, "--pixel", "800,0"}, 2, "is not in the picture, which is 800x800");
   refused({"no.json", "--pixel", "0,0"}, 5, "no.json");
-  const Words against = {kScene, "--size", "120x90", "--pixel", "1,2", "--against"};
+  const Arguments against = {kScene, "--size", "120x90", "--pixel", "1,2", "--against"};
   const auto refused_image = [&](const std::string& file, int code, const std::string& about) {
-    Words words = against;
+    Arguments words = against;
     words.push_back(file);
     refused(words, code, about);
   };
-  write_bytes(c.path("text.png"), "this is no picture\n");
-  write_bytes(c.path("empty.exr"), "");
-  const std::string cut = bytes_of(c.path("c.exr"));
-  write_bytes(c.path("cut.exr"), cut.substr(0, cut.size() / 2));
+  c.folder.write("text.png", "this is no picture\n");
+  c.folder.write("empty.exr", "");
+  const std::string cut = contents(c.path("c.exr"));
+  c.folder.write("cut.exr", cut.substr(0, cut.size() / 2));
   refused_image("text.png", 3, "text.png");
   refused_image("empty.exr", 3, "empty.exr");
   refused_image("cut.exr", 3, "cut.exr");
   refused_image("missing.exr", 5, "missing.exr");
   refused_image(".", 3, "no regular file");
-  Words small = {"render", kScene, "--size", "12x9", "-o", "small.png", "-q"};
+  Arguments small = {"render", kScene, "--size", "12x9", "-o", "small.png", "-q"};
   REQUIRE(run_command(small, c.path("")).exit_code == 0);
   refused_image("small.png", 3, "it is 12x9, and the frame 120x90");
 }

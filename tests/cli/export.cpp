@@ -1,29 +1,16 @@
 // What `trueshade export` writes, drawn by `trueshade render`.
 #include <sys/stat.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "core/image_files/image_io.h"
 #include "tests/catch.hpp"
+#include "tests/cli/output_of.h"
 #include "tests/cli/refused.h"
 #include "tests/cli/run_command.h"
+#include "tests/file_contents.h"
 #include "tests/scratch_folder.h"
 
 namespace trueshade {
 namespace {
-
-std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::string output_of(const Arguments& arguments, const ScratchFolder& folder) {
-  const Outcome outcome = run_command(arguments, folder.path(""));
-  INFO(outcome.err);
-  REQUIRE(outcome.exit_code == 0);
-  return outcome.out;
-}
 
 std::string hash_of(const std::string& scene, const Arguments& more, const ScratchFolder& folder) {
   Arguments arguments{"render", scene, "--size", "64x48", "--hash"};

@@ -1,6 +1,5 @@
 // --time and --frames: the right time, one line and one file a frame, each whole.
 #include <filesystem>
-#include <fstream>
 
 #include "cli/frame_name.h"
 #include "tests/catch.hpp"
@@ -35,15 +34,13 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-void write(const ScratchFolder& folder, std::string_view scene) { std::ofstream(folder.path("s.json")) << scene; }
-
-constexpr std::string_view kScene = R"({"version": 1, "fps": 8, "camera": {"eye": [0, 1, 5]},
+constexpr std::string_view kTurningCube = R"({"version": 1, "fps": 8, "camera": {"eye": [0, 1, 5]},
   "objects": [{"mesh": "cube", "steps": [{"time": 0, "rotation_deg": [0, 0, 0]}, {"time": 1, "rotation_deg": [0, 80, 0]}]}],
   "lights": [{"type": "ring", "count": 6, "radius": 3, "height": 1, "range": 6, "turn_s": 4}]})";
 
 TEST_CASE("each frame is the picture of its time, with a line and a file of its own") {
   const ScratchFolder folder;
-  write(folder, kScene);
+  folder.write("s.json", kTurningCube);
   const std::vector<std::string> draw = {"render", "s.json", "--size", "40x30", "--hash"};
   const auto with = [&](std::vector<std::string> more) {
     more.insert(more.begin(), draw.begin(), draw.end());
@@ -68,8 +65,8 @@ TEST_CASE("each frame is the picture of its time, with a line and a file of its 
 
 TEST_CASE("a frame that cannot be made leaves those before it whole and no file of its own") {
   const ScratchFolder folder;
-  write(
-      folder,
+  folder.write(
+      "s.json",
       R"({"version": 1, "fps": 1, "camera": {"steps": [{"time": 0, "eye": [0, 0, 2]}, {"time": 2, "eye": [0, 0, -2]}]}})");
   const Outcome outcome =
       run_command({"render", "s.json", "--size", "8x8", "--frames", "0-2", "-o", "f.png"}, folder.path(""));

@@ -4,14 +4,15 @@
 #include "tests/catch.hpp"
 #include "tests/cli/run_command.h"
 #include "tests/scratch_folder.h"
+#include "tests/text_parts.h"
 
-using namespace trueshade;
-using nlohmann::json;
-
+namespace trueshade {
 namespace {
 
+using nlohmann::json;
+
 /// Two triangles, rough and half metal, without lights and without a camera.
-constexpr const char* kModel = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+constexpr const char* kHalfMetal = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
   "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
   "materials": [{"doubleSided": true, "pbrMetallicRoughness":
                  {"baseColorFactor": [0.9, 0.6, 0.3, 1], "metallicFactor": 0.5, "roughnessFactor": 0.6}}],
@@ -19,11 +20,11 @@ constexpr const char* kModel = R"({"asset": {"version": "2.0"}, "scene": 0, "sce
                  "min": [-1, 0, 0], "max": [1, 1.5, 1]}],
   "bufferViews": [{"buffer": 0, "byteLength": 72}],
   "buffers": [{"byteLength": 72, "uri": "data:application/octet-stream;base64,AACAvwAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAA)"
-                               R"(wD8AAAAAAACAvwAAAAAAAAA/AAAAAAAAwD8AAAAAAAAAP83MTD4AAIA/"}]})";
+                                   R"(wD8AAAAAAACAvwAAAAAAAAA/AAAAAAAAwD8AAAAAAAAAP83MTD4AAIA/"}]})";
 
 class Model {
  public:
-  Model() { folder_.write("model.gltf", kModel); }
+  Model() { folder_.write("model.gltf", kHalfMetal); }
   void write(const std::string& name, const std::string& text) const { folder_.write(name, text); }
   Outcome run(const std::vector<std::string>& arguments) const { return run_command(arguments, folder_.path("")); }
   Outcome render(const std::vector<std::string>& more) const {
@@ -43,8 +44,6 @@ class Model {
  private:
   ScratchFolder folder_;
 };
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 
@@ -89,3 +88,5 @@ TEST_CASE("A picture that the preset gltf lit is judged by the scene that it nam
   CHECK(judged.exit_code == 0);
   CHECK(has(judged.out, "verdict     judged by the reference's scene: every pixel is explained; "));
 }
+
+}  // namespace trueshade

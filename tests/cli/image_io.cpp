@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "tests/catch.hpp"
+#include "tests/file_contents.h"
 #include "tests/scratch_folder.h"
 
 namespace trueshade {
@@ -24,11 +25,6 @@ Image gradient(int width, int height, Format format) {
   Image image(width, height, format);
   for (size_t i = 0; i < image.texels.size(); ++i) image.texels[i] = uint8_t(i * 7 % 251);
   return image;
-}
-
-std::vector<char> bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 TEST_CASE("a PNG holds the codes of an rgba8 image untouched, whatever alpha is") {
@@ -187,8 +183,8 @@ TEST_CASE("equal images are equal files") {
     write_image(folder.path("a" + ending), image, {}, {{"trueshade:version", "x"}});
     std::filesystem::last_write_time(folder.path("a" + ending), {});
     write_image(folder.path("b" + ending), image, {}, {{"trueshade:version", "x"}});
-    const std::vector<char> a = bytes_of(folder.path("a" + ending));
-    CHECK(a == bytes_of(folder.path("b" + ending)));
+    const std::string a = contents(folder.path("a" + ending));
+    CHECK(a == contents(folder.path("b" + ending)));
     CHECK(std::string(a.begin(), a.end()).find("OpenImageIO") == std::string::npos);
   }
 }

@@ -1,14 +1,13 @@
-// What files carry beside their pixels, and what is read of PNGs that other programs made. The others are made, and ours
-// are read, by OpenImageIO.
+// What files carry beside their pixels, and what is read of PNGs that other programs made. The others are made, and
+// ours are read, by OpenImageIO.
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 #include "core/error.h"
 #include "core/image_files/image_io.h"
 #include "tests/catch.hpp"
+#include "tests/file_contents.h"
 #include "tests/scratch_folder.h"
 
 namespace trueshade {
@@ -26,8 +25,7 @@ TEST_CASE("threads change no byte of a file") {
       ImageFileOptions options;
       options.threads = threads;
       write_image(folder.path(name), color, planes, {{"trueshade:scene", "x"}}, options);
-      std::ifstream file(folder.path(name), std::ios::binary);
-      files.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+      files.push_back(contents(folder.path(name)));
     }
     CHECK((files[1] == files[0] && files[2] == files[0] && files[3] == files[0]));
   }

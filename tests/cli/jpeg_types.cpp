@@ -16,7 +16,7 @@ namespace {
 
 using Bytes = std::vector<uint8_t>;
 
-struct Kind {
+struct JpegKind {
   const char* name;
   int components;
   J_COLOR_SPACE stored;
@@ -25,9 +25,9 @@ struct Kind {
   int restart_rows;
 };
 
-constexpr int kWidth = 37, kHeight = 21;
+constexpr int kJpegWidth = 37, kJpegHeight = 21;
 
-Bytes encoded(const Kind& kind) {
+Bytes encoded(const JpegKind& kind) {
   jpeg_compress_struct encoder{};
   jpeg_error_mgr errors{};
   encoder.err = jpeg_std_error(&errors);
@@ -35,7 +35,7 @@ Bytes encoded(const Kind& kind) {
   unsigned char* buffer = nullptr;
   unsigned long size = 0;
   jpeg_mem_dest(&encoder, &buffer, &size);
-  encoder.image_width = kWidth, encoder.image_height = kHeight;
+  encoder.image_width = kJpegWidth, encoder.image_height = kJpegHeight;
   encoder.input_components = kind.components;
   encoder.in_color_space = kind.components == 1 ? JCS_GRAYSCALE : kind.components == 3 ? JCS_RGB : JCS_CMYK;
   jpeg_set_defaults(&encoder);
@@ -46,8 +46,8 @@ Bytes encoded(const Kind& kind) {
   encoder.restart_in_rows = kind.restart_rows;
   if (kind.progressive) jpeg_simple_progression(&encoder);
   jpeg_start_compress(&encoder, TRUE);
-  Bytes row(size_t(kWidth * kind.components));
-  for (int y = 0; y < kHeight; ++y) {
+  Bytes row(size_t(kJpegWidth * kind.components));
+  for (int y = 0; y < kJpegHeight; ++y) {
     for (size_t i = 0; i < row.size(); ++i) row[i] = uint8_t(int(i) * 5 + y * 11);
     JSAMPROW rows[] = {row.data()};
     jpeg_write_scanlines(&encoder, rows, 1);
@@ -60,7 +60,7 @@ Bytes encoded(const Kind& kind) {
 }
 
 /// R, G, B of each pixel, by libjpeg's default decompression.
-Bytes decoded(const Bytes& bytes) {
+Bytes decoded_by_libjpeg(const Bytes& bytes) {
   jpeg_decompress_struct decoder{};
   jpeg_error_mgr errors{};
   decoder.err = jpeg_std_error(&errors);
@@ -69,9 +69,9 @@ Bytes decoded(const Bytes& bytes) {
   REQUIRE(jpeg_read_header(&decoder, TRUE) == JPEG_HEADER_OK);
   decoder.out_color_space = JCS_RGB;
   jpeg_start_decompress(&decoder);
-  Bytes texels(size_t(kWidth * kHeight * 3));
+  Bytes texels(size_t(kJpegWidth * kJpegHeight * 3));
   while (decoder.output_scanline < decoder.output_height) {
-    JSAMPROW rows[] = {texels.data() + decoder.output_scanline * size_t(kWidth * 3)};
+    JSAMPROW rows[] = {texels.data() + decoder.output_scanline * size_t(kJpegWidth * 3)};
     jpeg_read_scanlines(&decoder, rows, 1);
   }
   jpeg_finish_decompress(&decoder);
@@ -80,19 +80,19 @@ Bytes decoded(const Bytes& bytes) {
 }
 
 TEST_CASE("JPEG of every kind that is read are what libjpeg decodes, and those of four inks are refused by name") {
-  const Kind kKinds[] = {{"grey", 1, JCS_GRAYSCALE, 1, false, false, 0},
-                         {"grey, progressive", 1, JCS_GRAYSCALE, 1, true, true, 0},
-                         {"YCbCr 4:4:4", 3, JCS_YCbCr, 1, false, false, 0},
-                         {"YCbCr 4:2:0", 3, JCS_YCbCr, 2, false, true, 0},
-                         {"YCbCr 4:2:0, progressive", 3, JCS_YCbCr, 2, true, true, 0},
-                         {"YCbCr with restarts", 3, JCS_YCbCr, 2, false, false, 1},
-                         {"RGB of Adobe", 3, JCS_RGB, 1, false, false, 0}};
-  for (const Kind& kind : kKinds) {
-    const Bytes bytes = encoded(kind), expected = decoded(bytes);
+  const JpegKind kKinds[] = {{"grey", 1, JCS_GRAYSCALE, 1, false, false, 0},
+                             {"grey, progressive", 1, JCS_GRAYSCALE, 1, true, true, 0},
+                             {"YCbCr 4:4:4", 3, JCS_YCbCr, 1, false, false, 0},
+                             {"YCbCr 4:2:0", 3, JCS_YCbCr, 2, false, true, 0},
+                             {"YCbCr 4:2:0, progressive", 3, JCS_YCbCr, 2, true, true, 0},
+                             {"YCbCr with restarts", 3, JCS_YCbCr, 2, false, false, 1},
+                             {"RGB of Adobe", 3, JCS_RGB, 1, false, false, 0}};
+  for (const JpegKind& kind : kKinds) {
+    const Bytes bytes = encoded(kind), expected = decoded_by_libjpeg(bytes);
     const Image image = decode_image(bytes, "picture", 1 << 20);
-    REQUIRE((image.width == kWidth && image.height == kHeight && image.format == Format::rgba8));
+    REQUIRE((image.width == kJpegWidth && image.height == kJpegHeight && image.format == Format::rgba8));
     size_t wrong = 0;
-    for (size_t i = 0; i < size_t(kWidth * kHeight); ++i) {
+    for (size_t i = 0; i < size_t(kJpegWidth * kJpegHeight); ++i) {
       for (size_t c = 0; c < 3; ++c) wrong += image.texels[4 * i + c] != expected[3 * i + c];
       wrong += image.texels[4 * i + 3] != 255;
     }

@@ -7,37 +7,35 @@
 #include "tests/cli/refused.h"
 #include "tests/cli/run_command.h"
 #include "tests/scratch_folder.h"
+#include "tests/text_parts.h"
 
 namespace trueshade {
 namespace {
 
-using Words = std::vector<std::string>;
 using nlohmann::json;
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 constexpr const char* kLost =
     "1 material library cannot be read, so its materials are grey: lost.obj: line 1: lost.mtl: ";
 constexpr const char* kHint = "; add --lenient to look at it all the same)";
 
 /// A model whose library is not there, the same with it, and a model whose library lies elsewhere.
-class Folder {
+class FaultyModels {
  public:
-  Folder() {
+  FaultyModels() {
     const std::string faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n";
     folder_.write("lost.obj", "mtllib lost.mtl\n" + faces);
     folder_.write("whole.obj", "mtllib whole.mtl\n" + faces);
     folder_.write("whole.mtl", "newmtl m\nKd 0.2 0.7 0.7\n");
     folder_.write("here/far.obj", "mtllib ../whole.mtl\n" + faces);
   }
-  Outcome run(const Words& words) const { return run_command(words, folder_.path("")); }
-  Outcome done(const Words& words, int exit_code = 0) const {
+  Outcome run(const Arguments& words) const { return run_command(words, folder_.path("")); }
+  Outcome done(const Arguments& words, int exit_code = 0) const {
     const Outcome outcome = run(words);
     INFO(outcome.err);
     CHECK(outcome.exit_code == exit_code);
     return outcome;
   }
-  Outcome render(const std::string& scene, Words more) const {
+  Outcome render(const std::string& scene, Arguments more) const {
     more.insert(more.begin(), {"render", scene, "--size", "40x30"});
     return done(more);
   }
@@ -53,9 +51,9 @@ class Folder {
 };
 
 TEST_CASE("Of --lenient: it shows a file with faults, and every output says so") {
-  const Folder folder;
-  for (const Words& words : {Words{"render", "lost.obj", "--hash"}, Words{"info", "lost.obj"},
-                             Words{"explain", "lost.obj", "--pixel", "1,1"}})
+  const FaultyModels folder;
+  for (const Arguments& words : {Arguments{"render", "lost.obj", "--hash"}, Arguments{"info", "lost.obj"},
+                                 Arguments{"explain", "lost.obj", "--pixel", "1,1"}})
     check_refused(folder.run(words), 5, kHint);
   const Outcome drawn =
       folder.render("lost.obj", {"--lenient", "-o", "a.png", "-o", "a.exr", "-o", "a.html", "--json"});
@@ -72,7 +70,7 @@ TEST_CASE("Of --lenient: it shows a file with faults, and every output says so")
 }
 
 TEST_CASE("Of --lenient: a file without faults is the picture without it") {
-  const Folder folder;
+  const FaultyModels folder;
   CHECK(folder.render("whole.obj", {"--hash"}).out == folder.render("whole.obj", {"--hash", "--lenient"}).out);
   folder.render("whole.obj", {"--lenient", "-o", "a.png"});
   folder.render("whole.obj", {"-o", "b.png"});
@@ -81,7 +79,7 @@ TEST_CASE("Of --lenient: a file without faults is the picture without it") {
 }
 
 TEST_CASE("a picture that was drawn leniently is no reference, of compare and of validate") {
-  const Folder folder;
+  const FaultyModels folder;
   folder.render("lost.obj", {"--lenient", "-o", "lost.exr", "--aov", "depth,position,normal,albedo"});
   folder.render("whole.obj", {"-o", "whole.exr", "--aov", "depth,position,normal,albedo"});
   const std::string is_none = "lost.exr is no reference: it was drawn with --lenient of a file with faults";
@@ -97,10 +95,11 @@ TEST_CASE("a picture that was drawn leniently is no reference, of compare and of
 }
 
 TEST_CASE("no command that judges, measures or exports passes faults over, or names the option") {
-  const Folder folder;
-  for (const Words& words : {Words{"validate", "lost.obj", "--lenient"}, Words{"export", "lost.obj", "-o", "a.glb"},
-                             Words{"glsl", "lost.obj", "-o", "a"}, Words{"bench", "lost.obj"},
-                             Words{"shade", "a.exr", "--lights", "lost.obj", "-o", "a.png"}}) {
+  const FaultyModels folder;
+  for (const Arguments& words :
+       {Arguments{"validate", "lost.obj", "--lenient"}, Arguments{"export", "lost.obj", "-o", "a.glb"},
+        Arguments{"glsl", "lost.obj", "-o", "a"}, Arguments{"bench", "lost.obj"},
+        Arguments{"shade", "a.exr", "--lights", "lost.obj", "-o", "a.png"}}) {
     const Outcome outcome = folder.run(words);
     INFO(outcome.err);
     CHECK(outcome.exit_code != 0);
@@ -111,7 +110,7 @@ TEST_CASE("no command that judges, measures or exports passes faults over, or na
 }
 
 TEST_CASE("Of --trust-paths: it reads what a scene names elsewhere, in every command that reads one") {
-  const Folder folder;
+  const FaultyModels folder;
   check_refused(folder.run({"render", "here/far.obj", "--hash"}), 3,
                 "the path leaves the scene's folder (a path relative to the scene's folder and inside it, or "
                 "--trust-paths where you trust the file");
@@ -124,10 +123,10 @@ TEST_CASE("Of --trust-paths: it reads what a scene names elsewhere, in every com
 }
 
 TEST_CASE("a cache file of a scene that was read with trust or leniently serves no other") {
-  const Folder folder;
-  for (const Words& more : {Words{"--trust-paths"}, Words{"--lenient"}}) {
+  const FaultyModels folder;
+  for (const Arguments& more : {Arguments{"--trust-paths"}, Arguments{"--lenient"}}) {
     const std::string scene = more.front() == "--lenient" ? "lost.obj" : "here/far.obj";
-    Words words{"--hash", "--cache", "kept"};
+    Arguments words{"--hash", "--cache", "kept"};
     check_refused(folder.run({"render", scene, "--hash", "--cache", "kept"}), scene == "lost.obj" ? 5 : 3, "");
     words.push_back(more.front());
     const Outcome first = folder.render(scene, words), second = folder.render(scene, words);

@@ -1,5 +1,4 @@
 // --light-shader as users meet it: what it draws, what it says, what it refuses.
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/sha256.h"
@@ -7,26 +6,22 @@
 #include "tests/catch.hpp"
 #include "tests/cli/run_command.h"
 #include "tests/scratch_folder.h"
+#include "tests/text_parts.h"
 
-using namespace trueshade;
-
+namespace trueshade {
 namespace {
 
-const ScratchFolder& folder() {
+const ScratchFolder& shaders() {
   static const ScratchFolder made;
   return made;
 }
 
-void write(const std::string& name, const std::string& text) { std::ofstream(folder().path(name)) << text; }
-
-Outcome run(std::vector<std::string> arguments) { return run_command(arguments, folder().path("")); }
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+Outcome run(std::vector<std::string> arguments) { return run_command(arguments, shaders().path("")); }
 
 }  // namespace
 
 TEST_CASE("A light program draws, and the picture says which and with what parameters") {
-  write("dim.glsl", R"(layout(std140) uniform Parameters { float gain; vec3 tint; };
+  shaders().write("dim.glsl", R"(layout(std140) uniform Parameters { float gain; vec3 tint; };
 vec3 light(Surface s, Light l, View v) { return gain * tint * s.albedo.rgb * l.color / 100.0; })");
   const std::vector<std::string> given{"render",
                                        "builtin:cornell",
@@ -53,7 +48,7 @@ vec3 light(Surface s, Light l, View v) { return gain * tint * s.albedo.rgb * l.c
 }
 
 TEST_CASE("What is wrong with a light program is said with its place or its option") {
-  write("wrong.glsl", "vec3 light(Surface s, Light l, View v) {\n  return s.normals;\n}\n");
+  shaders().write("wrong.glsl", "vec3 light(Surface s, Light l, View v) {\n  return s.normals;\n}\n");
   const std::vector<std::string> frame{"render", "builtin:cornell", "--size", "32x24", "--hash"};
   const auto with = [&](std::vector<std::string> more) {
     more.insert(more.begin(), frame.begin(), frame.end());
@@ -62,19 +57,19 @@ TEST_CASE("What is wrong with a light program is said with its place or its opti
   const Outcome wrong = with({"--light-shader", "wrong.glsl"});
   CHECK(wrong.exit_code == 3);
   CHECK(has(wrong.err, "wrong.glsl:2"));
-  write("needs.glsl",
-        "layout(std140) uniform Parameters { float gain; };\n"
-        "vec3 light(Surface s, Light l, View v) { return vec3(gain); }\n");
+  shaders().write("needs.glsl",
+                  "layout(std140) uniform Parameters { float gain; };\n"
+                  "vec3 light(Surface s, Light l, View v) { return vec3(gain); }\n");
   const Outcome needs = with({"--light-shader", "needs.glsl"});
   CHECK(needs.exit_code == 2);
   CHECK(has(needs.err, "parameters.gain"));
   CHECK(with({"--light-shader", "needs.glsl", "--light-parameter", "gain=much"}).exit_code == 2);
   CHECK(with({"--light-parameter", "gain=1"}).exit_code == 2);
-  write("empty.glsl", "");
+  shaders().write("empty.glsl", "");
   CHECK(with({"--light-shader", "empty.glsl"}).exit_code == 3);
   CHECK(with({"--light-shader", "absent.glsl"}).exit_code == 5);
-  write("version.glsl", "#version 450\nvec3 light(Surface s, Light l, View v) { return vec3(1); }\n");
-  write("marked.glsl", "\xEF\xBB\xBFvec3 light(Surface s, Light l, View v) { return vec3(1); }\n");
+  shaders().write("version.glsl", "#version 450\nvec3 light(Surface s, Light l, View v) { return vec3(1); }\n");
+  shaders().write("marked.glsl", "\xEF\xBB\xBFvec3 light(Surface s, Light l, View v) { return vec3(1); }\n");
   const auto drawn_by = [](const std::string& command, const std::string& file) {
     std::vector<std::string> words{command, "builtin:cornell", "--light-shader", file};
     if (command == "explain") words.insert(words.end(), {"--pixel", "9,9"});
@@ -90,7 +85,8 @@ TEST_CASE("What is wrong with a light program is said with its place or its opti
     CHECK(marked.exit_code == 3);
     CHECK(has(marked.err, "marked.glsl:1:1: begins with a byte order mark"));
   }
-  write("taken.glsl", "\nconst float base = 0.5;\nvec3 light(Surface s, Light l, View v) { return vec3(base); }\n");
+  shaders().write("taken.glsl",
+                  "\nconst float base = 0.5;\nvec3 light(Surface s, Light l, View v) { return vec3(base); }\n");
   for (const char* const command : {"render", "glsl", "validate", "explain"}) {
     const Outcome taken = drawn_by(command, "taken.glsl");
     INFO(command << taken.err);
@@ -102,14 +98,14 @@ TEST_CASE("What is wrong with a light program is said with its place or its opti
   CHECK(has(outside.err, "(from 1)"));
   CHECK(with({"--light-shader", "toon", "--hash"}).out ==
         with({"--light-shader", "toon", "--light-parameter", "steps=4", "--hash"}).out);
-  write("zeros.spv", std::string("\x03\x02\x23\x07", 4) + std::string(64, '\0'));
+  shaders().write("zeros.spv", std::string("\x03\x02\x23\x07", 4) + std::string(64, '\0'));
   CHECK(with({"--light-shader", "zeros.spv"}).exit_code == 3);
 }
 
 TEST_CASE("A pipeline that names a light program is drawn by that text alone") {
-  write("one.glsl", "vec3 light(Surface s, Light l, View v) { return vec3(0.25); }\n");
-  write("other.glsl", "vec3 light(Surface s, Light l, View v) { return vec3(0.5); }\n");
-  write("named.json", R"({"light_program":{"file":"one.glsl","sha256":"00"}})");
+  shaders().write("one.glsl", "vec3 light(Surface s, Light l, View v) { return vec3(0.25); }\n");
+  shaders().write("other.glsl", "vec3 light(Surface s, Light l, View v) { return vec3(0.5); }\n");
+  shaders().write("named.json", R"({"light_program":{"file":"one.glsl","sha256":"00"}})");
   const auto with = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {"render", "builtin:cornell", "--size", "32x24", "--hash", "--pipeline", "named.json"});
     return run(more);
@@ -122,12 +118,13 @@ TEST_CASE("A pipeline that names a light program is drawn by that text alone") {
 
 TEST_CASE(
     "A light ends at its range under a program, wherever its preset is named, unless light_volumes says otherwise") {
-  write("endless.glsl", "vec3 light(Surface s, Light l, View v) { return vec3(0.25); }\n");
+  shaders().write("endless.glsl", "vec3 light(Surface s, Light l, View v) { return vec3(0.25); }\n");
   const auto hash = [&](const std::string& pipeline, std::vector<std::string> more = {}) {
-    write("near.json",
-          R"({"version": 1, "camera": {"eye": [0, 1, 4], "target": [0, 0, 0]}, "objects": [{"mesh": "sphere"}],
+    shaders().write(
+        "near.json",
+        R"({"version": 1, "camera": {"eye": [0, 1, 4], "target": [0, 0, 0]}, "objects": [{"mesh": "sphere"}],
       "lights": [{"type": "point", "position": [0, 2, 2], "range": 2.2}])" +
-              pipeline + "}");
+            pipeline + "}");
     more.insert(more.begin(), {"render", "near.json", "--size", "32x24", "--hash", "--light-shader", "endless.glsl"});
     return run(more).out;
   };
@@ -137,7 +134,7 @@ TEST_CASE(
   CHECK(hash("", {"--preset", "many-lights"}) == ended);
   const std::string stated = R"({"preset": "many-lights", "light_volumes": {"point": "unbounded"}})";
   CHECK(hash(", \"pipeline\": " + stated) != ended);
-  write("stated.json", stated);
+  shaders().write("stated.json", stated);
   CHECK(hash("", {"--pipeline", "stated.json"}) == hash(", \"pipeline\": " + stated));
 }
 
@@ -148,25 +145,26 @@ TEST_CASE("A light model that ships is drawn by its name, and the picture says w
     return run(more);
   };
   const ShippedModel& gltf = shipped_model("gltf");
-  write("copy.glsl", std::string(gltf.text));
+  shaders().write("copy.glsl", std::string(gltf.text));
   const Outcome named = with({"--light-shader", "gltf", "--json", "-o", "named.png"});
   CHECK(named.exit_code == 0);
   CHECK(has(named.out, R"("light_program":{"file":"gltf","sha256":")" + sha256_of(gltf.text) + '"'));
   CHECK(with({"--light-shader", "copy.glsl", "-o", "copy.png"}).exit_code == 0);
   CHECK(run({"compare", "named.png", "copy.png"}).exit_code == 0);
-  write("gltf", "vec3 light(Surface s, Light l, View v) { return vec3(0.25); }\n");
+  shaders().write("gltf", "vec3 light(Surface s, Light l, View v) { return vec3(0.25); }\n");
   const Outcome shipped = with({"--light-shader", "gltf", "--hash"});
   CHECK(shipped.out == with({"--light-shader", "copy.glsl", "--hash"}).out);  // a name without a dot is no file's
   CHECK(shipped.out != with({"--light-shader", "./gltf", "--hash"}).out);
-  write("of_name.json", R"({"light_program":{"file":"gltf"},"light_volumes":{"point":"range","spot":"range"}})");
+  shaders().write("of_name.json",
+                  R"({"light_program":{"file":"gltf"},"light_volumes":{"point":"range","spot":"range"}})");
   CHECK(with({"--pipeline", "of_name.json", "--hash"}).out == shipped.out);
   const Outcome unknown = with({"--light-shader", "glft", "--hash"});
   CHECK(unknown.exit_code == 2);
   CHECK(has(unknown.err, "did you mean gltf?"));
   for (const ShippedModel& model : shipped_models()) CHECK(has(unknown.err, " " + std::string(model.name)));
-  write("lacking.glsl",
-        "layout(std140) uniform Parameters { float steps; };  // from 1\n"
-        "vec3 light(Surface s, Light l, View v) { return s.albedo.rgb * steps; }\n");
+  shaders().write("lacking.glsl",
+                  "layout(std140) uniform Parameters { float steps; };  // from 1\n"
+                  "vec3 light(Surface s, Light l, View v) { return s.albedo.rgb * steps; }\n");
   const Outcome lacking = with({"--light-shader", "lacking.glsl", "--hash"});
   CHECK(lacking.exit_code == 2);
   CHECK(has(lacking.err, "parameters.steps"));
@@ -214,9 +212,9 @@ TEST_CASE("list names the models that ship, and says of one what it reads, as it
   for (const char* line :
        {"toon: Cartoons", "\n  steps           float, from 1, usually 4\n", "\n  surface.normal\n", "\n  light\n"})
     CHECK(has(text, line));
-  write("tinted.glsl",
-        "layout(std140) uniform Parameters { float x; vec3 tint; };\n"
-        "vec3 light(Surface s, Light l, View v) { return x * tint * s.albedo.rgb; }\n");
+  shaders().write("tinted.glsl",
+                  "layout(std140) uniform Parameters { float x; vec3 tint; };\n"
+                  "vec3 light(Surface s, Light l, View v) { return x * tint * s.albedo.rgb; }\n");
   CHECK(facts("tinted.glsl").at("parameters") ==
         json::parse(R"([{"name": "x", "type": "float"}, {"name": "tint", "type": "vec3"}])"));
   CHECK(facts("tinted.glsl").at("reads") == json::array({"surface.albedo"}));
@@ -224,9 +222,9 @@ TEST_CASE("list names the models that ship, and says of one what it reads, as it
 }
 
 TEST_CASE("A parameter that is given twice, or with too many numbers, is refused") {
-  write("gain.glsl",
-        "layout(std140) uniform Parameters { float gain; };\n"
-        "vec3 light(Surface s, Light l, View v) { return gain * s.albedo.rgb; }\n");
+  shaders().write("gain.glsl",
+                  "layout(std140) uniform Parameters { float gain; };\n"
+                  "vec3 light(Surface s, Light l, View v) { return gain * s.albedo.rgb; }\n");
   std::vector<std::string> given{"render",    "builtin:cornell",   "--size",   "8x8", "--light-shader",
                                  "gain.glsl", "--light-parameter", "gain=1,2", "-o",  "g.png"};
   const Outcome wide = run(given);
@@ -240,12 +238,13 @@ TEST_CASE("A parameter that is given twice, or with too many numbers, is refused
 }
 
 TEST_CASE("Parameters are held to their types, from options and from a pipeline's file") {
-  write("typed.glsl",
-        "struct Lens { float near, far; };\n"
-        "layout(std140) uniform Parameters { int count; uint seed; bool on; mat2 turn; float weight[2]; Lens lens; };\n"
-        "vec3 light(Surface s, Light l, View v) {\n"
-        "  vec2 t = turn * s.albedo.rg;\n"
-        "  return on ? vec3(t, weight[0] + weight[1] * lens.far) * float(count + int(seed)) : vec3(0);\n}\n");
+  shaders().write(
+      "typed.glsl",
+      "struct Lens { float near, far; };\n"
+      "layout(std140) uniform Parameters { int count; uint seed; bool on; mat2 turn; float weight[2]; Lens lens; };\n"
+      "vec3 light(Surface s, Light l, View v) {\n"
+      "  vec2 t = turn * s.albedo.rg;\n"
+      "  return on ? vec3(t, weight[0] + weight[1] * lens.far) * float(count + int(seed)) : vec3(0);\n}\n");
   const std::vector<std::pair<std::string, std::string>> right{
       {"count", "-2"},    {"seed", "3"},         {"on", "1"},        {"turn[0]", "1,0"},
       {"turn[1]", "0,1"}, {"weight[0]", "0.25"}, {"weight[1]", "2"}, {"lens.far", "0.5"}};
@@ -258,7 +257,7 @@ TEST_CASE("Parameters are held to their types, from options and from a pipeline'
       if (!by_file) words.insert(words.end(), {"--light-parameter", own + "=" + given});
       json += (json.empty() ? "" : ",") + (R"({"name":")" + own + R"(","value":[)" + given + "]}");
     }
-    write("typed.json", R"({"light_program":{"file":"typed.glsl","parameters":[)" + json + "]}}");
+    shaders().write("typed.json", R"({"light_program":{"file":"typed.glsl","parameters":[)" + json + "]}}");
     if (by_file) words.insert(words.end(), {"--pipeline", "typed.json"});
     return run(words);
   };
@@ -288,7 +287,7 @@ TEST_CASE("Parameters are held to their types, from options and from a pipeline'
 }
 
 TEST_CASE("A verdict says of how many pixels nothing can be said") {
-  write("lost.glsl", "vec3 light(Surface s, Light l, View v) { return vec3(sqrt(-1.0 - s.albedo.r)); }\n");
+  shaders().write("lost.glsl", "vec3 light(Surface s, Light l, View v) { return vec3(sqrt(-1.0 - s.albedo.r)); }\n");
   const Outcome drawn = run({"render", "builtin:cornell", "--size", "16x12", "-o", "any.exr", "--aov",
                              "depth,position,normal,albedo,id.object"});
   CHECK(drawn.exit_code == 0);
@@ -296,3 +295,5 @@ TEST_CASE("A verdict says of how many pixels nothing can be said") {
                               "--gbuffer", "any.exr", "--quick"});
   CHECK(has(judged.out, "UNDEFINED, of which nothing can be said"));
 }
+
+}  // namespace trueshade

@@ -11,11 +11,12 @@
 #include "tests/catch.hpp"
 #include "tests/cli/run_command.h"
 #include "tests/scratch_folder.h"
+#include "tests/text_parts.h"
 
-using namespace trueshade;
-using nlohmann::json;
-
+namespace trueshade {
 namespace {
+
+using nlohmann::json;
 
 /// A floor and an upright triangle of one material, and one directional light, whose node is turned by `rotation`.
 std::string model_text(const std::string& rotation, double lux, const std::string& material) {
@@ -57,8 +58,6 @@ constexpr const char* kMetalAndClay = R"({"asset": {"version": "2.0"}, "scene": 
   "bufferViews": [{"buffer": 0, "byteLength": 72}],
   "buffers": [{"byteLength": 72, "uri": "data:application/octet-stream;base64,AAAAwAAAAAAAAAAAAAAAAAAAAAAAAAAAAACAvwAAAEAAAAAA)"
                                       R"(AAAAAAAAAAAAAAAAAAAAQAAAAAAAAAAAAACAPwAAAEAAAAAA"}]})";
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 class Pictures {
  public:
@@ -115,7 +114,7 @@ class Pictures {
 };
 
 /// Of all pixels whose background is another one.
-int count(const Image& image, uint32_t least, uint32_t most) {
+int pixels_of_green(const Image& image, uint32_t least, uint32_t most) {
   int found = 0;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
@@ -130,7 +129,7 @@ std::vector<uint32_t> corner_of(const Image& image) {
 }
 using Codes = std::vector<uint32_t>;
 
-long double decoded(long double code) {
+long double light_of_code(long double code) {
   return code <= 0.04045L ? code / 12.92L : std::pow((code + 0.055L) / 1.055L, 2.4L);
 }
 
@@ -344,7 +343,7 @@ TEST_CASE("The option --exposure multiplies the light of a PNG, and leaves an EX
       for (int x = 0; x < png.width; ++x) {
         const long double shown = std::min<long double>(light.value(x, y, 0) * std::exp2(std::stod(stops)), 1.0L);
         const long double code = png.code(x, y, 0);
-        if (shown < decoded((code - 0.51L) / 255.0L) || shown > decoded((code + 0.51L) / 255.0L))
+        if (shown < light_of_code((code - 0.51L) / 255.0L) || shown > light_of_code((code + 0.51L) / 255.0L))
           FAIL("at " << x << ',' << y << " code " << code << " of " << double(shown));
       }
   }
@@ -360,9 +359,9 @@ TEST_CASE("A model under a sun in lux is not burnt, and says what was done and h
   CHECK(has(outcome.err, "of the light, under a filmic curve"));
   const Image burnt = pictures.picture("sun.gltf", {"--exposure", "0", "--background", "black"});
   const Image shown = pictures.picture("sun.gltf", {"--background", "black"});
-  const int covered = count(burnt, 255, 255);
+  const int covered = pixels_of_green(burnt, 255, 255);
   CHECK(covered > 300);
-  CHECK(count(shown, 60, 245) > covered * 9 / 10);
+  CHECK(pixels_of_green(shown, 60, 245) > covered * 9 / 10);
   CHECK(has(pictures.looks_of("sun.png"), "--exposure -"));
   CHECK(has(pictures.looks_of("sun.png"), "--tone-map filmic"));
   CHECK_FALSE(has(pictures.render("lit.gltf", {"-o", "lit.png"}).err, "filmic"));
@@ -420,7 +419,7 @@ TEST_CASE("A model of PLY stands on a ground, and before a background that is as
   CHECK(alpha_below(pictures.picture("model.ply", {})) == 255);
   const Image cut_out = pictures.picture("model.ply", {"--background", "none"});
   CHECK(alpha_below(cut_out) == 0);
-  CHECK(count(cut_out, 40, 255) > 100);
+  CHECK(pixels_of_green(cut_out, 40, 255) > 100);
   CHECK(pictures.hash("model.ply", {"--lights", "three"}) == pictures.hash("model.ply", {}));
 }
 
@@ -446,20 +445,21 @@ TEST_CASE("The option --lights keeps, adds, replaces and removes lights") {
   CHECK(lights("slab.obj", "add:2") == 4);
   CHECK(pictures.hash("slab.obj", {"--lights", "soft:0"}) == ours);
   CHECK(pictures.hash("slab.obj", {"--lights", "soft:0.5"}) != ours);
-  CHECK(count(pictures.picture("scene.json", {"--lights", "none", "--background", "black"}), 1, 255) == 0);
-  CHECK(count(pictures.picture("scene.json", {"--lights", "three", "--background", "black"}), 40, 250) > 300);
+  CHECK(pixels_of_green(pictures.picture("scene.json", {"--lights", "none", "--background", "black"}), 1, 255) == 0);
+  CHECK(pixels_of_green(pictures.picture("scene.json", {"--lights", "three", "--background", "black"}), 40, 250) > 300);
 }
 
 TEST_CASE("A model whose lights leave it black gets light, and says so") {
   const Pictures pictures;
   const Outcome behind = pictures.render("behind.gltf", {"-o", "behind.png", "--background", "black"});
   CHECK(has(behind.err, "reach next to no surface that is seen, so lights of ours are added"));
-  CHECK(count(pictures.read("behind.png"), 40, 255) > 300);
-  CHECK(count(pictures.picture("behind.gltf", {"--background", "black", "--lights", "keep", "--exposure", "0"}), 1,
-              255) == 0);
+  CHECK(pixels_of_green(pictures.read("behind.png"), 40, 255) > 300);
+  CHECK(
+      pixels_of_green(pictures.picture("behind.gltf", {"--background", "black", "--lights", "keep", "--exposure", "0"}),
+                      1, 255) == 0);
   const Outcome metal = pictures.render("metal.gltf", {"-o", "metal.png", "--background", "black"});
   CHECK(has(metal.err, "so soft light from all sides is added"));
-  CHECK(count(pictures.read("metal.png"), 20, 255) > 300);
+  CHECK(pixels_of_green(pictures.read("metal.png"), 20, 255) > 300);
   const Outcome lit = pictures.render("lit.gltf", {"-o", "lit.png"});
   CHECK_FALSE(has(lit.err, "added"));
   for (const char* scene : {"behind.gltf", "metal.gltf"})
@@ -619,3 +619,5 @@ TEST_CASE("a model of the smallest or the largest units looks as it does in othe
   CHECK(refused.exit_code == 3);
   CHECK(has(refused.err, "line 2: x is '1e20' (a number from -1e18 to 1e18;"));
 }
+
+}  // namespace trueshade

@@ -1,14 +1,13 @@
 // What the command draws by machine code of a light program, interpreted, and where the system refuses the code's
 // memory.
-#include <fstream>
 
 #include "tests/catch.hpp"
 #include "tests/cli/run_command.h"
+#include "tests/file_contents.h"
 #include "tests/filtered_process.h"
 #include "tests/scratch_folder.h"
 
-using namespace trueshade;
-using namespace trueshade::testing;
+namespace trueshade {
 
 TEST_CASE("A light program draws the same picture as machine code, interpreted, and where memory is not executable") {
   const ScratchFolder folder;
@@ -21,7 +20,7 @@ TEST_CASE("A light program draws the same picture as machine code, interpreted, 
   CHECK(run_command(interpreted).out == drawn.out);
   // mprotect() alone asks so: the loader maps libraries by mmap().
   const std::string file = folder.path("refused.txt");
-  const int ended = in_filtered_process(
+  const int ended = testing::in_filtered_process(
       SECCOMP_RET_ERRNO | EACCES, PROT_EXEC,
       [&] {
         if (std::freopen(file.c_str(), "w", stdout) == nullptr) return 98;
@@ -31,6 +30,7 @@ TEST_CASE("A light program draws the same picture as machine code, interpreted, 
       },
       false);
   CHECK(ended == 0);
-  std::ifstream in(file);
-  CHECK(std::string(std::istreambuf_iterator<char>(in), {}) == drawn.out);
+  CHECK(contents(file) == drawn.out);
 }
+
+}  // namespace trueshade

@@ -1,22 +1,21 @@
 // --mask, --ignore, --window, --channels and --rows, run as people run them; and masks that are none.
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "tests/catch.hpp"
 #include "tests/cli/engine_capture.h"
 #include "tests/cli/refused.h"
 #include "tests/cli/run_command.h"
+#include "tests/file_contents.h"
 #include "tests/scratch_folder.h"
 
 namespace trueshade {
 namespace {
 
-constexpr int kWidth = 64, kHeight = 48;
+constexpr int kMaskedWidth = 64, kMaskedHeight = 48;
 
-EnginePlane even(int channels, double value, int width = kWidth, int height = kHeight) {
+EnginePlane even(int channels, double value, int width = kMaskedWidth, int height = kMaskedHeight) {
   return {width, height, channels, std::vector<double>(size_t(width * height * channels), value)};
 }
 
@@ -35,7 +34,7 @@ void write_pair(const ScratchFolder& folder) {
   write_npy(folder.path("mask.npy"), with_icon(even(1, 1), 0), "|b1");
 }
 
-Outcome run_compare(const ScratchFolder& folder, std::vector<std::string> arguments) {
+Outcome compare_pair(const ScratchFolder& folder, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"compare", "ref.npy", "test.npy"});
   return run_command(arguments, folder.path(""));
 }
@@ -45,7 +44,7 @@ nlohmann::json json_of(const Outcome& outcome) {
   return nlohmann::json::parse(outcome.out);
 }
 
-bool says(const std::string& text, const std::string& part) {
+bool text_says(const std::string& text, const std::string& part) {
   INFO(text);
   CHECK(text.find(part) != std::string::npos);
   return text.find(part) != std::string::npos;
@@ -68,38 +67,37 @@ TEST_CASE("A number to ignore that no picture has is said, and options of FLIP t
   const auto ignore = [&](const char* number) {
     return run_command({"compare", "a.exr", "b.exr", "--ignore", number, "--allow-mask"}, folder.path("")).out;
   };
-  says(ignore("id.object=7"), "--ignore id.object=7 leaves nothing out");
+  text_says(ignore("id.object=7"), "--ignore id.object=7 leaves nothing out");
   CHECK(ignore("id.object=1").find("leaves nothing out") == std::string::npos);
   const Outcome judged =
       run_command({"validate", "s.json", "--gbuffer", "a.exr", "--ignore", "id.object=7", "--quick"}, folder.path(""));
-  says(judged.out, "id.object=7 leaves nothing out");
+  text_says(judged.out, "id.object=7 leaves nothing out");
 
   const auto refused = [&](std::vector<std::string> options, const char* reason) {
-    const Outcome outcome = run_compare(folder, std::move(options));
+    const Outcome outcome = compare_pair(folder, std::move(options));
     CHECK(outcome.exit_code == 2);
-    says(outcome.err, reason);
+    text_says(outcome.err, reason);
   };
   refused({"--ppd", "40"}, "nothing here measures FLIP");
   refused({"--hdr", "-o", "page.html"}, "nothing here measures FLIP");
   refused({"--ldr", "--flip", "0.1", "--tone-mapper", "hable"}, "with --ldr nothing is exposed");
-  CHECK(run_compare(folder, {"--ppd", "40", "--flip", "1"}).exit_code == 0);
-  says(run_compare(folder, {"--tone-mapper", "hable", "--flip", "1"}).out, "--tone-mapper does nothing");
-  CHECK(run_compare(folder, {"--ppd", "40", "-o", "map.png"}).exit_code == 1);
+  CHECK(compare_pair(folder, {"--ppd", "40", "--flip", "1"}).exit_code == 0);
+  text_says(compare_pair(folder, {"--tone-mapper", "hable", "--flip", "1"}).out, "--tone-mapper does nothing");
+  CHECK(compare_pair(folder, {"--ppd", "40", "-o", "map.png"}).exit_code == 1);
 }
 
 TEST_CASE("what a mask leaves out is no difference, and is counted in text, JSON and page") {
   const ScratchFolder folder;
   write_pair(folder);
-  CHECK(run_compare(folder, {}).exit_code == 1);
-  const Outcome text = run_compare(folder, {"--mask", "mask.npy", "-o", "page.html"});
+  CHECK(compare_pair(folder, {}).exit_code == 1);
+  const Outcome text = compare_pair(folder, {"--mask", "mask.npy", "-o", "page.html"});
   CHECK(text.exit_code == 0);
-  says(text.out, "every stored value equal; 192 are left out");
-  says(text.out, "mask        mask.npy: 192 of 3072 pixels left out, 6.25 %");
-  std::ifstream page(folder.path("page.html"));
-  const std::string html{std::istreambuf_iterator<char>(page), {}};
-  says(html, "pixels left out");
-  says(html, "\"left out\"");
-  const auto json = json_of(run_compare(folder, {"--mask", "mask.npy", "--json", "--flip", "0", "--psnr", "200"}));
+  text_says(text.out, "every stored value equal; 192 are left out");
+  text_says(text.out, "mask        mask.npy: 192 of 3072 pixels left out, 6.25 %");
+  const std::string html = contents(folder.path("page.html"));
+  text_says(html, "pixels left out");
+  text_says(html, "\"left out\"");
+  const auto json = json_of(compare_pair(folder, {"--mask", "mask.npy", "--json", "--flip", "0", "--psnr", "200"}));
   CHECK(json["left_out_pixels"] == 192);
   CHECK(json["left_out_by"] == "mask.npy");
   CHECK(json["pixels"] == 3072 - 192);
@@ -110,9 +108,9 @@ TEST_CASE("masks that are none are refused in one line") {
   const ScratchFolder folder;
   write_pair(folder);
   write_npy(folder.path("grey.npy"), with_icon(even(1, 255), 128), "|u1");
-  write_npy(folder.path("low.npy"), even(1, 1, kWidth, kHeight - 1), "|u1");
+  write_npy(folder.path("low.npy"), even(1, 1, kMaskedWidth, kMaskedHeight - 1), "|u1");
   write_npy(folder.path("none.npy"), even(1, 0), "|u1");
-  write_npy(folder.path("much.npy"), with_icon(even(1, 1), 0, 0, 0, kWidth, 5), "|u1");
+  write_npy(folder.path("much.npy"), with_icon(even(1, 1), 0, 0, 0, kMaskedWidth, 5), "|u1");
   write_npy(folder.path("nan.npy"), with_icon(even(1, 1), std::nan("")), "<f4");
   write_npy(folder.path("minus.npy"), with_icon(even(1, 1), -1), "<f4");
   EnginePlane colors = even(3, 1);
@@ -139,13 +137,13 @@ TEST_CASE("masks that are none are refused in one line") {
               {"", "the name is empty", 2}};
   for (const auto& row : rows) {
     CAPTURE(row.mask);
-    check_refused(run_compare(folder, {"--mask", row.mask}), row.exit_code, row.about);
+    check_refused(compare_pair(folder, {"--mask", row.mask}), row.exit_code, row.about);
   }
-  CHECK(run_compare(folder, {"--mask", "much.npy", "--allow-mask"}).exit_code == 1);
-  check_refused(run_compare(folder, {"--mask", "none.npy", "--allow-mask"}), 3, "all 3072 pixels are left out");
-  check_refused(run_compare(folder, {"--allow-mask"}), 2, "nothing is left out");
+  CHECK(compare_pair(folder, {"--mask", "much.npy", "--allow-mask"}).exit_code == 1);
+  check_refused(compare_pair(folder, {"--mask", "none.npy", "--allow-mask"}), 3, "all 3072 pixels are left out");
+  check_refused(compare_pair(folder, {"--allow-mask"}), 2, "nothing is left out");
   folder.write("m.png", "");
-  check_refused(run_compare(folder, {"--mask", "m.png", "-o", "m.png"}), 2, "or their mask");
+  check_refused(compare_pair(folder, {"--mask", "m.png", "-o", "m.png"}), 2, "or their mask");
 }
 
 TEST_CASE("lists of identifiers and windows that are none are refused, and so are channels that are not there") {
@@ -154,22 +152,22 @@ TEST_CASE("lists of identifiers and windows that are none are refused, and so ar
   for (const char* list : {"", "3", "id.object", "id.object=", "id.object=a", "id.object=3,", "id.object=9-3",
                            "id.object=-1", "id.object=99999999999", "id.object=1.5", "object=3", "depth=0"}) {
     CAPTURE(list);
-    check_refused(run_compare(folder, {"--ignore", list}), 2, "--ignore");
+    check_refused(compare_pair(folder, {"--ignore", list}), 2, "--ignore");
   }
-  check_refused(run_compare(folder, {"--ignore", "id.object=3"}), 3, "neither picture has a channel id.object");
+  check_refused(compare_pair(folder, {"--ignore", "id.object=3"}), 3, "neither picture has a channel id.object");
   for (const char* window : {"", "16", "16:", ":0.1", "16:2", "16:-1", "16:x", "12:0.1", "4:0.1", "256:0.1", "16:nan",
                              "1e9:0.1", "16:0.1:2"}) {
     CAPTURE(window);
-    check_refused(run_compare(folder, {"--window", window}), 2, "--window");
+    check_refused(compare_pair(folder, {"--window", window}), 2, "--window");
   }
-  check_refused(run_compare(folder, {"--delta", "0.1"}), 2, "--delta");
-  check_refused(run_compare(folder, {"--channels", "RGBA"}), 3, "it has no channel A");
+  check_refused(compare_pair(folder, {"--delta", "0.1"}), 2, "--delta");
+  check_refused(compare_pair(folder, {"--channels", "RGBA"}), 3, "it has no channel A");
   for (const char* channels : {"", ",", "R,", "RR", "R,R"}) {
     CAPTURE(channels);
-    check_refused(run_compare(folder, {"--channels", channels}), 2, "--channels");
+    check_refused(compare_pair(folder, {"--channels", channels}), 2, "--channels");
   }
-  check_refused(run_compare(folder, {"--rows", "sideways"}), 2, "--rows");
-  check_refused(run_compare(folder, {"--rows", "bottom_up", "--accept"}), 2, "--accept");
+  check_refused(compare_pair(folder, {"--rows", "sideways"}), 2, "--rows");
+  check_refused(compare_pair(folder, {"--rows", "bottom_up", "--accept"}), 2, "--accept");
 }
 
 TEST_CASE("of folders one mask goes for all pictures, and what is wrong with it accepts none") {
@@ -186,7 +184,7 @@ TEST_CASE("of folders one mask goes for all pictures, and what is wrong with it 
   }
   write_npy(folder.path("mask.npy"), with_icon(even(1, 1), 0), "|b1");
   write_npy(folder.path("small.npy"), even(1, 1, 8, 8), "|b1");
-  write_npy(folder.path("much.npy"), with_icon(even(1, 1), 0, 0, 0, kWidth, 30), "|b1");
+  write_npy(folder.path("much.npy"), with_icon(even(1, 1), 0, 0, 0, kMaskedWidth, 30), "|b1");
   CHECK(run({}).exit_code == 1);
   const auto json = json_of(run({"--mask", "mask.npy", "--json"}));
   CHECK(json["passes"] == true);
@@ -194,7 +192,7 @@ TEST_CASE("of folders one mask goes for all pictures, and what is wrong with it 
   for (const char* wrong : {"small.npy", "much.npy"}) {
     const Outcome outcome = run({"--mask", wrong, "--accept"});
     CHECK(outcome.exit_code == 3);
-    says(outcome.out, "2 of 2 pictures do not pass");
+    text_says(outcome.out, "2 of 2 pictures do not pass");
   }
   check_refused(run({"--mask", "absent.npy", "--accept"}), 5, "absent.npy: cannot open it");
   CHECK(run({"--mask", "mask.npy", "--accept"}).exit_code == 0);
@@ -204,16 +202,16 @@ TEST_CASE("of folders one mask goes for all pictures, and what is wrong with it 
 TEST_CASE("the worst windows are told, and one fails the comparison") {
   const ScratchFolder folder;
   write_pair(folder);
-  const Outcome text = run_compare(folder, {"--window", "16:0.5", "--delta", "2/255"});
+  const Outcome text = compare_pair(folder, {"--window", "16:0.5", "--delta", "2/255"});
   CHECK(text.exit_code == 1);
   // 16 of its 16 columns and 12 of its rows are the icon's: of 8, 12, 16, ... the first window that has all of it.
-  says(text.out,
-       "window      16x16 at 8,4: 192 of 256 pixels differ by more than 0.00784314, mean error 0.2941, "
-       "largest 0.3922");
-  says(text.out, "in a window of 16x16: 0.75 (at most 0.5): DOES NOT HOLD");
-  CHECK(run_compare(folder, {"--window", "16:0.75", "--window", "64:1"}).exit_code == 0);
-  CHECK(run_compare(folder, {"--window", "16:0", "--delta", "100/255"}).exit_code == 0);
-  const auto json = json_of(run_compare(folder, {"--window", "32:0.5", "--json"}));
+  text_says(text.out,
+            "window      16x16 at 8,4: 192 of 256 pixels differ by more than 0.00784314, mean error 0.2941, "
+            "largest 0.3922");
+  text_says(text.out, "in a window of 16x16: 0.75 (at most 0.5): DOES NOT HOLD");
+  CHECK(compare_pair(folder, {"--window", "16:0.75", "--window", "64:1"}).exit_code == 0);
+  CHECK(compare_pair(folder, {"--window", "16:0", "--delta", "100/255"}).exit_code == 0);
+  const auto json = json_of(compare_pair(folder, {"--window", "32:0.5", "--json"}));
   REQUIRE(json["windows"].size() == 3);
   CHECK(json["windows"][1]["side"] == 32);
   CHECK(json["windows"][1]["pixels_beyond"] == 192);
@@ -224,19 +222,19 @@ TEST_CASE("the worst windows are told, and one fails the comparison") {
 TEST_CASE("rows from the bottom up are turned, and channels that are not named are not compared") {
   const ScratchFolder folder;
   EnginePlane plane = even(3, 7);
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) plane.at(x, y, 0) = y;
+  for (int y = 0; y < kMaskedHeight; ++y)
+    for (int x = 0; x < kMaskedWidth; ++x) plane.at(x, y, 0) = y;
   write_npy(folder.path("ref.npy"), plane, "|u1");
   EnginePlane other = bottom_up(plane);
-  for (int i = 0; i < kWidth; ++i) other.at(i, 5, 2) = 99;
+  for (int i = 0; i < kMaskedWidth; ++i) other.at(i, 5, 2) = 99;
   write_npy(folder.path("test.npy"), other, "|u1");
-  CHECK(run_compare(folder, {}).exit_code == 1);
-  const auto turned = json_of(run_compare(folder, {"--rows", "bottom_up", "--json"}));
-  CHECK(turned["unequal_pixels"] == kWidth);
-  CHECK(turned["first"]["y"] == kHeight - 1 - 5);
-  CHECK(run_compare(folder, {"--rows", "bottom_up", "--channels", "RG"}).exit_code == 0);
-  CHECK(run_compare(folder, {"--rows", "bottom_up", "--channels", "R,B"}).exit_code == 1);
-  CHECK(run_compare(folder, {"--channels", "G"}).exit_code == 0);
+  CHECK(compare_pair(folder, {}).exit_code == 1);
+  const auto turned = json_of(compare_pair(folder, {"--rows", "bottom_up", "--json"}));
+  CHECK(turned["unequal_pixels"] == kMaskedWidth);
+  CHECK(turned["first"]["y"] == kMaskedHeight - 1 - 5);
+  CHECK(compare_pair(folder, {"--rows", "bottom_up", "--channels", "RG"}).exit_code == 0);
+  CHECK(compare_pair(folder, {"--rows", "bottom_up", "--channels", "R,B"}).exit_code == 1);
+  CHECK(compare_pair(folder, {"--channels", "G"}).exit_code == 0);
 }
 
 TEST_CASE("an error names the file that holds the value, of several") {
@@ -261,7 +259,7 @@ TEST_CASE("an error names the file that holds the value, of several") {
   write_npy(folder.path("id.npy"), with_icon(even(1, 1), 1.5), "<f4");
   write_npy(folder.path("albedo.npy"), even(3, 51), "|u1");
   check_refused(judged(planes + ",id.object=id.npy"), 3, "error: id.npy: id.object at 8,8 is 1.5");
-  write_npy(folder.path("depth.npy"), even(1, 0.5, kWidth, kHeight - 8), "<f4");
+  write_npy(folder.path("depth.npy"), even(1, 0.5, kMaskedWidth, kMaskedHeight - 8), "<f4");
   check_refused(judged(planes), 3, "depth.npy");
 }
 
@@ -283,13 +281,12 @@ TEST_CASE("validate judges nothing of what a mask, or an object, leaves out") {
   };
   const Outcome text = judged({"--mask", "mask.npy", "-o", "page.html"}, "");
   CHECK(text.exit_code == 0);
-  says(text.out, "mask        mask.npy: 192 of 3072 pixels left out, 6.25 %");
-  says(text.out, "lighting: 2880 pixels, ");
-  says(text.out, "every pixel is explained; 192 are left out");
-  std::ifstream page(folder.path("page.html"));
-  const std::string html{std::istreambuf_iterator<char>(page), {}};
-  says(html, "LEFT OUT");
-  says(html, "mask.npy: 192 of 3072 pixels left out, 6.25 %");
+  text_says(text.out, "mask        mask.npy: 192 of 3072 pixels left out, 6.25 %");
+  text_says(text.out, "lighting: 2880 pixels, ");
+  text_says(text.out, "every pixel is explained; 192 are left out");
+  const std::string html = contents(folder.path("page.html"));
+  text_says(html, "LEFT OUT");
+  text_says(html, "mask.npy: 192 of 3072 pixels left out, 6.25 %");
   const auto json = json_of(judged({"--mask", "mask.npy", "--json"}, ""));
   CHECK(json["left_out_pixels"] == 192);
   CHECK(json["verdict"]["stages"][0]["left_out"] == 192);
@@ -305,7 +302,7 @@ TEST_CASE("validate judges nothing of what a mask, or an object, leaves out") {
   check_refused(judged({"--ignore", "id.object=1-99", "--allow-mask"}, ""), 3, "pixels with a surface are left out");
   const Outcome without = judged({"--ignore", "id.object=1", "--allow-mask"}, "");
   CHECK(without.exit_code == 0);
-  says(without.out, "id.object=1: ");
+  text_says(without.out, "id.object=1: ");
   write_npy(folder.path("small.npy"), even(1, 1, 3, 3), "|u1");
   check_refused(judged({"--mask", "small.npy"}, ""), 3, "the mask is 3x3, and what it masks is 64x48");
   check_refused(judged({"--mask", "good.exr"}, ""), 3, "of the mask is");

@@ -16,18 +16,14 @@
 #include "tests/catch.hpp"
 #include "tests/cli/refused.h"
 #include "tests/cli/run_command.h"
+#include "tests/file_contents.h"
 #include "tests/scratch_folder.h"
 
 namespace trueshade {
 namespace {
 
-std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 /// Output of a run that must succeed, and say nothing else but which files it wrote.
-std::string output_of(const std::vector<std::string>& arguments, const std::string& folder = ".") {
+std::string quiet_output_of(const std::vector<std::string>& arguments, const std::string& folder = ".") {
   const Outcome outcome = run_command(arguments, folder);
   INFO(outcome.err);
   REQUIRE(outcome.exit_code == 0);
@@ -39,7 +35,7 @@ std::string output_of(const std::vector<std::string>& arguments, const std::stri
 TEST_CASE("the hash printed is that of the PNG's pixels, and is in its metadata") {
   const ScratchFolder folder;
   const std::string line =
-      output_of({"render", "builtin:cornell", "--size", "61x47", "-o", "x.png", "--hash"}, folder.path(""));
+      quiet_output_of({"render", "builtin:cornell", "--size", "61x47", "-o", "x.png", "--hash"}, folder.path(""));
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
   const auto file = OIIO::ImageInput::open(folder.path("x.png"), &config);
@@ -53,7 +49,7 @@ TEST_CASE("the hash printed is that of the PNG's pixels, and is in its metadata"
   CHECK(file->spec().get_string_attribute("trueshade:imageHash") == "sha256:" + hex);
   CHECK(file->spec().get_string_attribute("trueshade:scene") == "builtin:cornell");
   CHECK(file->spec().get_string_attribute("trueshade:pipeline").find("\"width\":61") != std::string::npos);
-  const std::string about = output_of({"info", "x.png"}, folder.path(""));
+  const std::string about = quiet_output_of({"info", "x.png"}, folder.path(""));
   CHECK(about.find("61x47") != std::string::npos);
   CHECK(about.find(hex) != std::string::npos);
 }
@@ -67,7 +63,7 @@ TEST_CASE("A pipe that waits for a reader is refused, files behind links are rep
     arguments.push_back(path);
     return arguments;
   };
-  output_of(draw(file));
+  quiet_output_of(draw(file));
   const std::string picture = contents(file);
 
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
@@ -76,7 +72,7 @@ TEST_CASE("A pipe that waits for a reader is refused, files behind links are rep
 
   for (const char* target : {"file.png", "absent.png"}) {  // one that is there, one that is not yet
     std::filesystem::create_symlink(target, link);
-    output_of(draw(link));
+    quiet_output_of(draw(link));
     CHECK(std::filesystem::is_symlink(link));
     CHECK(contents(folder.path(target)) == picture);
     std::filesystem::remove(link);
@@ -91,7 +87,9 @@ TEST_CASE("A file that is replaced keeps its permissions, and a new one has the 
   const ScratchFolder folder;
   const auto mode = [&](const char* name) { return std::filesystem::status(folder.path(name)).permissions(); };
   const auto draw = [&](const std::string& setup) {
-    REQUIRE(run_command({"render", "builtin:cornell", "--size", "8x8", "-o", "x.png"}, folder.path(""), setup).exit_code == 0);
+    REQUIRE(
+        run_command({"render", "builtin:cornell", "--size", "8x8", "-o", "x.png"}, folder.path(""), setup).exit_code ==
+        0);
   };
   draw("umask 027");
   CHECK(mode("x.png") == std::filesystem::perms(0640));
@@ -112,7 +110,7 @@ TEST_CASE("Temporaries of processes that are gone are removed, those of others a
     folder.write(name, "half a picture");
   const int lock = open(folder.path(held).c_str(), O_RDONLY);  // as a process that this one's numbers do not reach
   REQUIRE(flock(lock, LOCK_EX | LOCK_NB) == 0);
-  output_of({"render", "builtin:cornell", "--size", "8x8", "-o", folder.path("x.png")});
+  quiet_output_of({"render", "builtin:cornell", "--size", "8x8", "-o", folder.path("x.png")});
   close(lock);
   std::vector<std::string> expected = {held, owned, ".trueshade-x.tmp", abandoned + "x", "x.png"};
   std::sort(expected.begin(), expected.end());
@@ -129,7 +127,7 @@ TEST_CASE("A device gets the bytes and stays a device") {
   std::filesystem::create_symlink(device, link);
   const int other_end = open(device.c_str(), O_RDWR | O_NOCTTY);  // keeps what was written until it is read
   REQUIRE(other_end >= 0);
-  output_of({"render", "builtin:cornell", "--size", "8x8", "-o", link});
+  quiet_output_of({"render", "builtin:cornell", "--size", "8x8", "-o", link});
   char first[4] = {};
   CHECK(read(terminal, first, 4) == 4);
   CHECK(std::string(first + 1, 3) == "PNG");
@@ -141,10 +139,11 @@ TEST_CASE("A device gets the bytes and stays a device") {
 
 TEST_CASE("an EXR has the planes asked for under their channel names") {
   const ScratchFolder folder;
-  output_of({"render", "builtin:cornell", "--size", "33x21", "--target", "rgba16f", "-o", "x.exr", "--aov",
-             "light.count,depth,position,normal,albedo,uv,id.object,id.material,specular,emission,light.1,light.tile,"
-             "light.intensity,overdraw,light.boxes"},
-            folder.path(""));
+  quiet_output_of(
+      {"render", "builtin:cornell", "--size", "33x21", "--target", "rgba16f", "-o", "x.exr", "--aov",
+       "light.count,depth,position,normal,albedo,uv,id.object,id.material,specular,emission,light.1,light.tile,"
+       "light.intensity,overdraw,light.boxes"},
+      folder.path(""));
   const auto file = OIIO::ImageInput::open(folder.path("x.exr"));
   REQUIRE(file);
   std::vector<std::string> names = file->spec().channelnames;
@@ -194,9 +193,9 @@ TEST_CASE("an EXR has the planes asked for under their channel names") {
 
 TEST_CASE("a view is the image: hashed, named in the metadata, a heat map with its scale") {
   const ScratchFolder folder;
-  const std::string line = output_of({"render", "builtin:cornell", "--size", "31x23", "--target", "rgba32f", "--view",
-                                      "light-count", "-o", "x.png", "--hash"},
-                                     folder.path(""));
+  const std::string line = quiet_output_of({"render", "builtin:cornell", "--size", "31x23", "--target", "rgba32f",
+                                            "--view", "light-count", "-o", "x.png", "--hash"},
+                                           folder.path(""));
   CHECK(line.ends_with("  31x23  rgba8\n"));
   const auto file = OIIO::ImageInput::open(folder.path("x.png"));
   REQUIRE(file);
@@ -220,7 +219,7 @@ TEST_CASE("equal images are equal files, however they were computed") {
         "render", "builtin:cornell",          "--size", "100x75", "-o", "x.exr", "-o", "x.png",
         "--aov",  "depth,normal,light.count", "--hash"};
     arguments.insert(arguments.end(), way.begin(), way.end());
-    hashes.push_back(output_of(arguments, folder.path("")));
+    hashes.push_back(quiet_output_of(arguments, folder.path("")));
     exr.push_back(contents(folder.path("x.exr")));
     png.push_back(contents(folder.path("x.png")));
   }
@@ -233,8 +232,8 @@ TEST_CASE("equal images are equal files, however they were computed") {
 }
 
 TEST_CASE("the answer in JSON is one document with all there is to know") {
-  const std::string json =
-      output_of({"render", "builtin:cornell", "--size", "40x30", "--json", "--hash", "--stats", "--aov", "depth"});
+  const std::string json = quiet_output_of(
+      {"render", "builtin:cornell", "--size", "40x30", "--json", "--hash", "--stats", "--aov", "depth"});
   CHECK(json.find('\n') == json.size() - 1);
   for (const char* key : {"\"scene\": {", "\"pipeline\": {", "\"execution\": {", "\"stats\": {", "\"hash\": \"sha256:",
                           "\"files\": []", "\"covered_pixels\": ", "\"threads\": ", "\"name\": \"depth\""})
@@ -247,7 +246,7 @@ TEST_CASE("pipelines are layered: preset, then the pipeline file, then options")
   const auto line = [&](const std::vector<std::string>& options) {
     std::vector<std::string> arguments = {"render", "builtin:cornell", "--pipeline", "p.json", "--hash"};
     arguments.insert(arguments.end(), options.begin(), options.end());
-    const std::string text = output_of(arguments, folder.path(""));
+    const std::string text = quiet_output_of(arguments, folder.path(""));
     return text.substr(text.find("  "));
   };
   CHECK(line({}) == "  20x10  rgba32f\n");
@@ -257,7 +256,7 @@ TEST_CASE("pipelines are layered: preset, then the pipeline file, then options")
 
 TEST_CASE("a report is one page that needs no other file") {
   const ScratchFolder folder;
-  output_of({"render", "builtin:cornell", "--size", "50x40", "-o", "report.html"}, folder.path(""));
+  quiet_output_of({"render", "builtin:cornell", "--size", "50x40", "-o", "report.html"}, folder.path(""));
   const std::string page = contents(folder.path("report.html"));
   CHECK(page.starts_with("<!doctype html>"));
   CHECK(page.ends_with("</html>\n"));
@@ -271,14 +270,15 @@ TEST_CASE("a report is one page that needs no other file") {
 }
 
 TEST_CASE("help, version and lists go to standard output") {
-  CHECK(output_of({"--help"}).find("render") != std::string::npos);
-  CHECK(output_of({"render", "--help"}).find("--no-light-culling") != std::string::npos);
-  CHECK(output_of({"--version"}).starts_with("trueshade "));
-  CHECK(output_of({"list"}).find("city") != std::string::npos);
-  const std::string json = output_of({"list", "--json"});
-  for (const char* key : {"scenes", "presets", "strategies", "profiles", "driver_profiles", "formats", "simd", "schemas"})
+  CHECK(quiet_output_of({"--help"}).find("render") != std::string::npos);
+  CHECK(quiet_output_of({"render", "--help"}).find("--no-light-culling") != std::string::npos);
+  CHECK(quiet_output_of({"--version"}).starts_with("trueshade "));
+  CHECK(quiet_output_of({"list"}).find("city") != std::string::npos);
+  const std::string json = quiet_output_of({"list", "--json"});
+  for (const char* key :
+       {"scenes", "presets", "strategies", "profiles", "driver_profiles", "formats", "simd", "schemas"})
     CHECK(json.find('"' + std::string(key) + "\": [") != std::string::npos);
-  for (const std::string& text : {output_of({"list"}), json})
+  for (const std::string& text : {quiet_output_of({"list"}), json})
     for (const char* name : {"ideal", "mesa-llvmpipe-22.3", "d3d-class"}) {
       INFO(name);
       CHECK(text.find(name) != std::string::npos);
@@ -286,7 +286,7 @@ TEST_CASE("help, version and lists go to standard output") {
 }
 
 TEST_CASE("info on a scene says what is in it") {
-  const std::string text = output_of({"info", "builtin:cornell"});
+  const std::string text = quiet_output_of({"info", "builtin:cornell"});
   for (const char* word : {"triangles drawn", "lights", "instances", "sha256:"})
     CHECK(text.find(word) != std::string::npos);
 }

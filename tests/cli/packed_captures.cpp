@@ -11,9 +11,9 @@ TEST_CASE("Normals made unit and stored as the pipeline's halves are legal, what
     for (int k = 0; k < 3; ++k)
       e[k] = length > 0 ? double(float_from_half(half_from_float(float(n[k] / length), HalfRound::toward_zero))) : 0;
   });
-  write_bytes(c.path("halves.json"), R"({"gbuffer": {"normal": {"format": "rgba16f"}}})");
-  const auto violating = [&](const Words& more) {
-    Words options = {"--gbuffer", "c.exr", "--map", "depth,id.object,normal=n.npy.RGB:unit"};
+  c.folder.write("halves.json", R"({"gbuffer": {"normal": {"format": "rgba16f"}}})");
+  const auto violating = [&](const Arguments& more) {
+    Arguments options = {"--gbuffer", "c.exr", "--map", "depth,id.object,normal=n.npy.RGB:unit"};
     options.insert(options.end(), more.begin(), more.end());
     return violations(c.counts(options));
   };
@@ -35,7 +35,7 @@ TEST_CASE("A capture whose values are packed is judged by what its codes say, an
   // The picture of packed planes is lit from what the codes say; it is made by our light pass, judged by the judge.
   const auto check = [&](const std::string& map, bool lights_again, uint64_t least_exact) {
     INFO(map);
-    Words options = {"--gbuffer", "c.exr", "--map", map, "--image", "c.exr"};
+    Arguments options = {"--gbuffer", "c.exr", "--map", map, "--image", "c.exr"};
     if (lights_again) {
       const Outcome lit =
           run_command({"shade", "c.exr", "--map", map, "--lights", kScene, "-o", "lit.png", "-q"}, c.path(""));
@@ -140,9 +140,9 @@ TEST_CASE(
   const std::string map = "position,albedo,depth,id.object,normal=oct.dds:octahedral:unorm";
   EnginePlane codes = repacked(c.normal, 2, octahedral);
   for (double& e : codes.values) e = std::round(255 * (e * 0.5 + 0.5)) / 255;
-  const auto counts = [&](const Words& picture) {
+  const auto counts = [&](const Arguments& picture) {
     write_dds(c.path("oct.dds"), codes, 49);
-    Words options = {"--gbuffer", "c.exr", "--map", map};
+    Arguments options = {"--gbuffer", "c.exr", "--map", map};
     options.insert(options.end(), picture.begin(), picture.end());
     return c.counts(options);
   };
@@ -183,7 +183,7 @@ TEST_CASE("A packed capture whose rows are read from the wrong end is told apart
   write_npy(c.path("z.npy"), bottom_up(c.depth), "<f4");
   write_npy(c.path("o.npy"), bottom_up(c.object), "<f4");
   write_npy(c.path("a.npy"), bottom_up(c.albedo), "<f4");
-  const auto diagnosis = [&](const Words& options) {
+  const auto diagnosis = [&](const Arguments& options) {
     const Outcome outcome = c.judge(options);
     INFO(outcome.err);
     REQUIRE((outcome.exit_code == 0 || outcome.exit_code == 1));
@@ -203,7 +203,7 @@ TEST_CASE("A packed capture whose rows are read from the wrong end is told apart
   REQUIRE(turned.size() == 1);
   CHECK(turned[0]["name"] == "rows=top_down");
 
-  // Words of planes that are turned twice: what the map says of all of them is wrong.
+  // Arguments of planes that are turned twice: what the map says of all of them is wrong.
   const auto twice =
       diagnosis({"--gbuffer", "c.exr", "--map", "depth=c.depth.Z:bottom_up,id.object=c.id.object:bottom_up"});
   REQUIRE(twice.size() == 1);
@@ -287,7 +287,7 @@ TEST_CASE("A plane that is read with the wrong words of --map is named with thos
   };
   for (const Case& test : kCases) {
     INFO(test.map);
-    Words options = {"--gbuffer", "c.exr", "--map", test.map};
+    Arguments options = {"--gbuffer", "c.exr", "--map", test.map};
     if (test.map.find("albedo") != std::string::npos) options.insert(options.end(), {"--image", "c.exr"});
     const Outcome outcome = c.judge(options);
     INFO(outcome.err);
@@ -331,8 +331,8 @@ TEST_CASE("View space and distances are told from an engine's matrix too, Vulkan
     for (int column = 0; column < 4; ++column)
       for (const auto& row : rows) matrix.push_back(double(float(row[column])));
     scene["camera"] = {{"eye", {3, 2.5, 5}}, {"clip_from_world", matrix}};
-    write_bytes(c.path("m.json"), scene.dump());
-    write_bytes(c.path("p.json"), convention.pipeline);
+    c.folder.write("m.json", scene.dump());
+    c.folder.write("p.json", convention.pipeline);
     const Outcome drawn = run_command({"render", "m.json", "--pipeline", "p.json", "--size", "120x90", "-o", "m.exr",
                                        "-q", "--aov", "depth,position,normal,albedo,id.object"},
                                       c.path(""));

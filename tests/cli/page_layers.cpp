@@ -11,6 +11,7 @@
 #include "cli/pages/page.h"
 #include "cli/pages/viewer.h"
 #include "tests/catch.hpp"
+#include "tests/cli/paeth.h"
 
 namespace trueshade {
 namespace {
@@ -40,14 +41,7 @@ std::string inflated(const std::string& bytes, size_t size) {
   return out;
 }
 
-/// PNG, section 9.4.
-int64_t paeth(int64_t a, int64_t b, int64_t c) {
-  const int64_t p = a + b - c, pa = std::abs(p - a), pb = std::abs(p - b), pc = std::abs(p - c);
-  if (pa <= pb && pa <= pc) return a;
-  return pb <= pc ? b : c;
-}
-
-std::vector<std::string> lines_of(const std::string& elements, const std::string& id) {
+std::vector<std::string> script_lines(const std::string& elements, const std::string& id) {
   const std::string start = "<script type=\"text/plain\" id=\"" + id + "\">";
   const size_t begin = elements.find(start) + start.size();
   REQUIRE(elements.find(start) != std::string::npos);
@@ -62,7 +56,7 @@ Codes unpacked(const WrittenLayer& layer, size_t level, const Codes& base = {}) 
   const auto json = nlohmann::json::parse(layer.json);
   const auto& spec = json["levels"][level];
   const size_t width = spec["width"], height = spec["height"], channels = json["channels"], bits = json["bits"];
-  const std::vector<std::string> lines = lines_of(layer.elements, spec["data"]);
+  const std::vector<std::string> lines = script_lines(layer.elements, spec["data"]);
   const size_t columns = (width + kTileSide - 1) / kTileSide;
   REQUIRE(lines.size() == columns * ((height + kTileSide - 1) / kTileSide));
   Codes all(width * height * channels);
@@ -105,7 +99,7 @@ Image image_of(int width, int height, Format format, uint32_t seed) {
   return image;
 }
 
-Codes codes_of(const Image& image) {
+Codes image_codes(const Image& image) {
   Codes codes;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
@@ -120,7 +114,7 @@ TEST_CASE("A page's layer holds every code of an image of any format, over more 
     CAPTURE(info(format).name);
     const Image image = image_of(530, 519, format, 7);
     const WrittenLayer layer = written(layer_of_image("a", "A", "", image), nullptr, 2);
-    CHECK(unpacked(layer, 0) == codes_of(image));
+    CHECK(unpacked(layer, 0) == image_codes(image));
   }
 }
 
@@ -129,7 +123,7 @@ TEST_CASE("A layer stored against another holds every code too, and nothing wher
   const PageLayer base = layer_of_image("base", "Base", "", one);
   PageLayer same = layer_of_image("same", "Same", "", one), apart = layer_of_image("apart", "Apart", "", other);
   same.base = apart.base = "base";
-  CHECK(unpacked(written(apart, &base, 2), 0, codes_of(one)) == codes_of(other));
+  CHECK(unpacked(written(apart, &base, 2), 0, image_codes(one)) == image_codes(other));
   CHECK(written(same, &base, 2).elements == "<script type=\"text/plain\" id=\"pixels-same-1\">\n</script>\n");
 }
 
@@ -187,7 +181,7 @@ TEST_CASE("Names end no element of a page, whatever is in them") {
   const size_t begin = html.find(start) + start.size();
   const auto manifest = nlohmann::json::parse(html.substr(begin, html.find("</script>", begin) - begin));
   CHECK(manifest["layers"][0]["name"] == name);
-  const std::string packed = bytes_of_base64(lines_of(html, "viewer-explanations")[0]);
+  const std::string packed = bytes_of_base64(script_lines(html, "viewer-explanations")[0]);
   std::string text(10000, '\0');
   uLongf length = uLongf(text.size());
   REQUIRE(uncompress(reinterpret_cast<Bytef*>(text.data()), &length, reinterpret_cast<const Bytef*>(packed.data()),

@@ -1,18 +1,16 @@
 // What the command says of a picture that shows less than its maker may expect, and refusals that once were riddles.
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "core/image_files/image_io.h"
 #include "tests/catch.hpp"
 #include "tests/cli/refused.h"
 #include "tests/cli/run_command.h"
+#include "tests/file_contents.h"
 #include "tests/scratch_folder.h"
+#include "tests/text_parts.h"
 
 namespace trueshade {
 namespace {
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// What is said of a scene that consists of a cube, these members, and more options.
 std::string said_of(const std::string& members, const Arguments& more = {}) {
@@ -55,8 +53,7 @@ TEST_CASE("A black picture says why in JSON and on the page too, and views that 
       run_command({"render", "s.json", "--size", "16x12", "--json", "-o", "x.html"}, folder.path(""));
   REQUIRE(outcome.exit_code == 0);
   CHECK(has(nlohmann::json::parse(outcome.out)["notes"].dump(), "The scene has no lights"));
-  std::ifstream page(folder.path("x.html"));
-  CHECK(has({std::istreambuf_iterator<char>(page), {}}, "The scene has no lights"));
+  CHECK(has(contents(folder.path("x.html")), "The scene has no lights"));
   CHECK(said_of(R"("lights": [])", {"--view", "albedo"}).empty());
 }
 

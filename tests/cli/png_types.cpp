@@ -4,13 +4,13 @@
 #include <zlib.h>
 
 #include <array>
-#include <cstdlib>
 #include <random>
 
 #include "core/error.h"
 #include "core/image_files/channel_file.h"
 #include "core/image_files/image_io.h"
 #include "tests/catch.hpp"
+#include "tests/cli/paeth.h"
 #include "tests/scratch_folder.h"
 
 namespace trueshade {
@@ -18,7 +18,7 @@ namespace {
 
 using Bytes = std::vector<uint8_t>;
 
-struct Kind {
+struct PngKind {
   uint8_t color_type, bits;
   bool interlaced, transparency;
   int width, height;
@@ -46,13 +46,8 @@ struct Sample {
   std::array<uint16_t, 3> key{};
 };
 
-uint8_t paeth(int a, int b, int c) {
-  const int p = a + b - c, pa = std::abs(p - a), pb = std::abs(p - b), pc = std::abs(p - c);
-  return uint8_t(pa <= pb && pa <= pc ? a : pb <= pc ? b : c);
-}
-
 /// One pass: every dx-th column and dy-th row; each row has another filter.
-void put_pass(const Kind& kind, const Sample& sample, int x0, int y0, int dx, int dy, Bytes& out) {
+void put_pass(const PngKind& kind, const Sample& sample, int x0, int y0, int dx, int dy, Bytes& out) {
   if (x0 >= kind.width) return;
   const size_t channels = channels_of(kind.color_type), unit = std::max<size_t>(1, channels * kind.bits / 8);
   Bytes above;
@@ -76,7 +71,7 @@ void put_pass(const Kind& kind, const Sample& sample, int x0, int y0, int dx, in
     out.push_back(filter);
     for (size_t i = 0; i < row.size(); ++i) {
       const uint8_t left = i < unit ? 0 : row[i - unit], up = above[i], corner = i < unit ? 0 : above[i - unit];
-      const uint8_t guess[] = {0, left, up, uint8_t((left + up) / 2), paeth(left, up, corner)};
+      const uint8_t guess[] = {0, left, up, uint8_t((left + up) / 2), uint8_t(paeth(left, up, corner))};
       out.push_back(uint8_t(row[i] - guess[filter]));
     }
     above = row;
@@ -84,7 +79,7 @@ void put_pass(const Kind& kind, const Sample& sample, int x0, int y0, int dx, in
   }
 }
 
-Sample sample_of(const Kind& kind, std::mt19937& random) {
+Sample sample_of(const PngKind& kind, std::mt19937& random) {
   Sample sample;
   const unsigned largest = (1u << kind.bits) - 1;
   const size_t channels = channels_of(kind.color_type), texels = size_t(kind.width) * size_t(kind.height);
@@ -124,7 +119,7 @@ Sample sample_of(const Kind& kind, std::mt19937& random) {
 }
 
 /// What a texel is by the specification: codes of 8 or 16 bits.
-std::array<unsigned, 4> texel_of(const Kind& kind, const Sample& sample, size_t index) {
+std::array<unsigned, 4> texel_of(const PngKind& kind, const Sample& sample, size_t index) {
   const size_t channels = channels_of(kind.color_type);
   const uint16_t* codes = sample.codes.data() + index * channels;
   if (kind.color_type == 3) {
@@ -147,7 +142,7 @@ unsigned code_at(const Image& image, size_t index, size_t c) {
 }
 
 /// The same file by libpng, codes of 16 bits.
-std::vector<uint16_t> read_by_libpng(const Bytes& file, const Kind& kind, size_t& channels) {
+std::vector<uint16_t> read_by_libpng(const Bytes& file, const PngKind& kind, size_t& channels) {
   OIIO::Filesystem::IOMemReader memory(const_cast<uint8_t*>(file.data()), file.size());
   const auto input = OIIO::ImageInput::create("png");
   OIIO::ImageSpec spec, config;
@@ -161,12 +156,13 @@ std::vector<uint16_t> read_by_libpng(const Bytes& file, const Kind& kind, size_t
 }
 
 /// Read as channels, there are those that the file stores: grey is Y, and an index stands for a colour.
-void check_channels(const Kind& kind, const Sample& sample) {
+void check_channels(const PngKind& kind, const Sample& sample) {
   const ScratchFolder folder;
   const std::string path = folder.write("picture.png", std::string(sample.file.begin(), sample.file.end()));
   const ChannelFile file = read_channel_file(path, kMostExpansion);
   const bool alpha = kind.transparency || kind.color_type >= 4;
-  const std::string names = (kind.color_type == 0 || kind.color_type == 4 ? "Y" : "RGB") + std::string(alpha ? "A" : "");
+  const std::string names =
+      (kind.color_type == 0 || kind.color_type == 4 ? "Y" : "RGB") + std::string(alpha ? "A" : "");
   REQUIRE(file.channels.size() == names.size());
   size_t wrong = 0;
   for (size_t c = 0; c < names.size(); ++c) {
@@ -179,7 +175,7 @@ void check_channels(const Kind& kind, const Sample& sample) {
   CHECK(wrong == 0);
 }
 
-void check_kind(const Kind& kind, std::mt19937& random) {
+void check_kind(const PngKind& kind, std::mt19937& random) {
   CAPTURE(int(kind.color_type), int(kind.bits), kind.interlaced, kind.transparency, kind.width, kind.height);
   const Sample sample = sample_of(kind, random);
   const Image image = decode_image(sample.file, "picture", uint64_t(1) << 30);

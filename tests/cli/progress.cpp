@@ -1,30 +1,24 @@
 // What the command says on a terminal while it works: under util-linux's `script`, which gives it one.
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 
 #include "cli/activity.h"
-#include "run_command.h"
 #include "tests/catch.hpp"
+#include "tests/cli/run_command.h"
+#include "tests/file_contents.h"
 #include "tests/scratch_folder.h"
+#include "tests/text_parts.h"
 
 namespace trueshade {
 namespace {
 
 /// What `trueshade ARGUMENTS` writes to a terminal.
 std::string on_a_terminal(const std::string& arguments, const ScratchFolder& folder) {
-  const std::string to = folder.path("terminal.txt");
   const std::string line = "cd '" + folder.path("") + "' && script -qec '" TRUESHADE_COMMAND " " + arguments +
                            "' terminal.txt >terminal.out 2>&1 </dev/null";
   INFO(line);
   CHECK(std::system(line.c_str()) == 0);
-  std::ifstream file(to, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
+  return contents(folder.path("terminal.txt"));
 }
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 

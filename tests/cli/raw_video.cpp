@@ -1,7 +1,6 @@
 // render --raw-video -o -: what a program that reads the pipe gets.
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -9,6 +8,7 @@
 #include "tests/catch.hpp"
 #include "tests/cli/refused.h"
 #include "tests/cli/run_command.h"
+#include "tests/file_contents.h"
 #include "tests/scratch_folder.h"
 
 namespace trueshade {
@@ -86,8 +86,8 @@ TEST_CASE("Raw video has standard output for itself, and a reader that goes ends
                            " render builtin:red --size 640x480 --frames 0-40 --raw-video -o - --quiet 2>err; "
                            "echo $? >code; } | head -c 1000 >/dev/null";
   CHECK(std::system(gone.c_str()) == 0);
-  std::ifstream err(folder.path("err")), code(folder.path("code"));
-  const std::string said{std::istreambuf_iterator<char>(err), {}};
+  std::ifstream code(folder.path("code"));
+  const std::string said = contents(folder.path("err"));
   int exit_code = -1;
   code >> exit_code;
   CHECK(exit_code == 5);

@@ -2,13 +2,12 @@
 // anything.
 #include <OpenImageIO/imageio.h>
 
-#include <fstream>
-#include <iterator>
 #include <optional>
 
 #include "core/error.h"
 #include "core/image_files/image_io.h"
 #include "tests/catch.hpp"
+#include "tests/file_contents.h"
 #include "tests/scratch_folder.h"
 
 namespace trueshade {
@@ -21,7 +20,7 @@ Image pattern(int width, int height, Format format) {
 }
 
 /// The kind of error that reading ends in; nothing where it ends well.
-std::optional<ErrorKind> refusal(const std::string& path) {
+std::optional<ErrorKind> reading_refusal(const std::string& path) {
   try {
     read_planes(path);
     return std::nullopt;
@@ -31,13 +30,6 @@ std::optional<ErrorKind> refusal(const std::string& path) {
     return error.kind();
   }
 }
-
-std::string bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-void write_bytes(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
 
 /// An EXR of these channels as another program may write it.
 void write_exr(const std::string& path, OIIO::ImageSpec spec, const std::vector<std::string>& names) {
@@ -94,12 +86,12 @@ TEST_CASE("a torn file is refused wherever it is torn") {
   write_image(folder.path("c.exr"), pattern(40, 90, Format::rgba32f), {}, {});
   write_image(folder.path("c.png"), pattern(40, 90, Format::rgba8), {}, {});
   for (const char* name : {"c.exr", "c.png"}) {
-    const std::string whole = bytes_of(folder.path(name));
+    const std::string whole = contents(folder.path(name));
     REQUIRE(whole.size() > 200);
     for (size_t length = 0; length < whole.size(); length += 1 + whole.size() / 97) {
       INFO(name << " cut to " << length << " of " << whole.size());
-      write_bytes(folder.path("torn"), whole.substr(0, length));
-      CHECK(refusal(folder.path("torn")) == ErrorKind::bad_input);
+      folder.write("torn", whole.substr(0, length));
+      CHECK(reading_refusal(folder.path("torn")) == ErrorKind::bad_input);
     }
   }
 }
@@ -107,13 +99,13 @@ TEST_CASE("a torn file is refused wherever it is torn") {
 TEST_CASE("a PNG with a changed byte is refused: its checksums tell") {
   const ScratchFolder folder;
   write_image(folder.path("c.png"), pattern(40, 90, Format::rgba8), {}, {});
-  const std::string whole = bytes_of(folder.path("c.png"));
+  const std::string whole = contents(folder.path("c.png"));
   for (size_t at = 8; at < whole.size(); at += 13) {
     std::string changed = whole;
     changed[at] = char(changed[at] ^ 0x10);
-    write_bytes(folder.path("changed.png"), changed);
+    folder.write("changed.png", changed);
     INFO("byte " << at);
-    const auto kind = refusal(folder.path("changed.png"));
+    const auto kind = reading_refusal(folder.path("changed.png"));
     CHECK((kind == ErrorKind::bad_input || kind == ErrorKind::limit));
   }
 }
@@ -125,23 +117,23 @@ TEST_CASE("files that are not a whole picture of our planes are refused") {
     write_exr(folder.path(name), spec, names);
     return folder.path(name);
   };
-  CHECK(refusal(written("ok.exr", plain, {"P.X", "P.Y", "P.Z", "other"})) == std::nullopt);
-  CHECK(refusal(written("missing.exr", plain, {"P.X", "P.Y"})) == ErrorKind::bad_input);
-  CHECK(refusal(written("strangers.exr", plain, {"beauty", "crypto"})) == ErrorKind::bad_input);
+  CHECK(reading_refusal(written("ok.exr", plain, {"P.X", "P.Y", "P.Z", "other"})) == std::nullopt);
+  CHECK(reading_refusal(written("missing.exr", plain, {"P.X", "P.Y"})) == ErrorKind::bad_input);
+  CHECK(reading_refusal(written("strangers.exr", plain, {"beauty", "crypto"})) == ErrorKind::bad_input);
   OIIO::ImageSpec tiled = plain;
   tiled.tile_width = tiled.tile_height = 16;
-  CHECK(refusal(written("tiled.exr", tiled, {"R", "G", "B", "A"})) == ErrorKind::bad_input);
+  CHECK(reading_refusal(written("tiled.exr", tiled, {"R", "G", "B", "A"})) == ErrorKind::bad_input);
   OIIO::ImageSpec cropped = plain;
   cropped.full_width = 16;
-  CHECK(refusal(written("cropped.exr", cropped, {"R", "G", "B", "A"})) == ErrorKind::bad_input);
-  CHECK(refusal(written("wide.exr", OIIO::ImageSpec(1048577, 1, 1, OIIO::TypeDesc::FLOAT), {"depth.Z"})) ==
+  CHECK(reading_refusal(written("cropped.exr", cropped, {"R", "G", "B", "A"})) == ErrorKind::bad_input);
+  CHECK(reading_refusal(written("wide.exr", OIIO::ImageSpec(1048577, 1, 1, OIIO::TypeDesc::FLOAT), {"depth.Z"})) ==
         ErrorKind::limit);
-  write_bytes(folder.path("text.exr"), "not an image at all");
-  CHECK(refusal(folder.path("text.exr")) == ErrorKind::bad_input);
-  write_bytes(folder.path("magic.exr"), std::string("\x76\x2f\x31\x01") + std::string(400, 'x'));
-  CHECK(refusal(folder.path("magic.exr")) == ErrorKind::bad_input);
-  CHECK(refusal(folder.path("absent.exr")) == ErrorKind::io);
-  CHECK(refusal(folder.path("")) == ErrorKind::bad_input);  // a folder, as of a scene
+  folder.write("text.exr", "not an image at all");
+  CHECK(reading_refusal(folder.path("text.exr")) == ErrorKind::bad_input);
+  folder.write("magic.exr", std::string("\x76\x2f\x31\x01") + std::string(400, 'x'));
+  CHECK(reading_refusal(folder.path("magic.exr")) == ErrorKind::bad_input);
+  CHECK(reading_refusal(folder.path("absent.exr")) == ErrorKind::io);
+  CHECK(reading_refusal(folder.path("")) == ErrorKind::bad_input);  // a folder, as of a scene
 }
 
 }  // namespace trueshade

@@ -2,8 +2,6 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "scenes/pipeline/light_mesh.h"
@@ -12,6 +10,7 @@
 #include "tests/catch.hpp"
 #include "tests/cli/refused.h"
 #include "tests/cli/run_command.h"
+#include "tests/file_contents.h"
 #include "tests/scratch_folder.h"
 
 namespace trueshade {
@@ -31,11 +30,6 @@ Json printed(const std::string& scene, const ScratchFolder& folder, const Argume
   INFO(outcome.err);
   REQUIRE(outcome.exit_code == 0);
   return Json::parse(outcome.out);
-}
-
-std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// The float of a number or of one of the words for numbers that JSON has not.

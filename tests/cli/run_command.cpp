@@ -3,9 +3,8 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 
+#include "tests/file_contents.h"
 #include "tests/scratch_folder.h"
 
 namespace trueshade {
@@ -15,11 +14,6 @@ std::string quoted(const std::string& text) {
   std::string shell = "'";
   for (const char c : text) shell += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return shell + '\'';
-}
-
-std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 }  // namespace

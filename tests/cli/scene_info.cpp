@@ -7,29 +7,27 @@
 #include "tests/cli/refused.h"
 #include "tests/cli/run_command.h"
 #include "tests/scratch_folder.h"
+#include "tests/text_parts.h"
 
 namespace trueshade {
 namespace {
 
-using Words = std::vector<std::string>;
 using nlohmann::json;
 
-class Folder : public ScratchFolder {
+class InfoFolder : public ScratchFolder {
  public:
-  std::string said(const Words& words) const {
+  std::string said(const Arguments& words) const {
     const Outcome outcome = run_command(words, path(""));
     INFO(outcome.err);
     CHECK(outcome.exit_code == 0);
     return outcome.out;
   }
-  json told(Words words) const {
+  json told(Arguments words) const {
     words.emplace_back("--json");
     return json::parse(said(words));
   }
-  Outcome run(const Words& words) const { return run_command(words, path("")); }
+  Outcome run(const Arguments& words) const { return run_command(words, path("")); }
 };
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// A triangle under a light, with a colour and a normal map, and two extensions beside that of the light.
 std::string textured_gltf(const std::string& more) {
@@ -52,7 +50,7 @@ std::string textured_gltf(const std::string& more) {
 }
 
 TEST_CASE("info says which textures, extensions and lights a model has") {
-  const Folder folder;
+  const InfoFolder folder;
   folder.said({"render", "builtin:cornell", "--size", "16x8", "-q", "-o", "bricks.png"});
   folder.write("model.gltf", textured_gltf(""));
   const std::string text = folder.said({"info", "model.gltf"});
@@ -85,7 +83,7 @@ TEST_CASE("info says which textures, extensions and lights a model has") {
 }
 
 TEST_CASE("info cuts long lists, and its JSON does not") {
-  const Folder folder;
+  const InfoFolder folder;
   std::string nodes = R"({"name": "root"})", extensions;
   for (int i = 0; i < 9; ++i) {
     nodes += R"(, {"name": "c)" + std::to_string(i) + R"(", "camera": 0})";
@@ -108,7 +106,7 @@ TEST_CASE("info cuts long lists, and its JSON does not") {
 }
 
 TEST_CASE("the bounds that info says are those of the vertices that are drawn, at the time that is asked for") {
-  const Folder folder;
+  const InfoFolder folder;
   folder.write("octahedron.obj",
                "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\nv 9 9 9\n"
                "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n");
@@ -135,9 +133,9 @@ TEST_CASE("the bounds that info says are those of the vertices that are drawn, a
 }
 
 TEST_CASE("the memory that info says is what --max-memory is held against") {
-  const Folder folder;
-  const Words size = {"--size", "2000x1500", "--preset", "many-lights"};
-  Words asked = {"info", "builtin:cornell"}, drawn = {"render", "builtin:cornell", "-q", "-o", "a.png"};
+  const InfoFolder folder;
+  const Arguments size = {"--size", "2000x1500", "--preset", "many-lights"};
+  Arguments asked = {"info", "builtin:cornell"}, drawn = {"render", "builtin:cornell", "-q", "-o", "a.png"};
   asked.insert(asked.end(), size.begin(), size.end());
   drawn.insert(drawn.end(), size.begin(), size.end());
   const json memory = folder.told(asked).at("memory");
@@ -146,7 +144,7 @@ TEST_CASE("the memory that info says is what --max-memory is held against") {
   const double bytes = memory.at("render_bytes").get<double>();
   CHECK(bytes == memory.at("process_bytes").get<double>() + memory.at("needed_bytes").get<double>());
   const auto within = [&](double share) {
-    Words words = drawn;
+    Arguments words = drawn;
     words.insert(words.end(), {"--max-memory", std::to_string(uint64_t(bytes * share))});
     return folder.run(words);
   };
@@ -160,7 +158,7 @@ TEST_CASE("the memory that info says is what --max-memory is held against") {
 }
 
 TEST_CASE("info of a picture says the same in JSON, and options of scenes are refused there") {
-  const Folder folder;
+  const InfoFolder folder;
   folder.said({"render", "builtin:cornell", "--size", "20x10", "-q", "-o", "a.png", "-o", "a.exr"});
   for (const std::string file : {"a.png", "a.exr"}) {
     const std::string text = folder.said({"info", file});
@@ -180,7 +178,7 @@ TEST_CASE("info of a picture says the same in JSON, and options of scenes are re
 }
 
 TEST_CASE("info tells of a scene whose light program is not here, which render refuses") {
-  const Folder folder;
+  const InfoFolder folder;
   folder.write("scene.json", R"({"version": 1, "objects": [{"mesh": "plane"}],
     "pipeline": {"light_program": {"file": "mine.glsl"}}})");
   CHECK(has(folder.said({"info", "scene.json"}), "mine.glsl"));

@@ -27,14 +27,14 @@ TEST_CASE("shade makes of a frame's planes the picture that render made", "[slow
 
 TEST_CASE("shade rebuilds positions from depth as render does, and blends into the target as it does") {
   const DrawnCapture c;
-  write_bytes(c.path("p.json"), R"({"gbuffer": {"position_from_depth": true, "normal": {"format": "rgb10_a2"},
+  c.folder.write("p.json", R"({"gbuffer": {"position_from_depth": true, "normal": {"format": "rgb10_a2"},
                                     "albedo": {"format": "rgba16f"}}})");
   for (const std::string strategy : {"deferred-loop", "deferred-volumes"})
     for (const std::string profile : {"ideal", "mesa-llvmpipe-22.3"}) {
       INFO(strategy << ' ' << profile);
-      const Words how = {"--pipeline", "p.json", "--strategy", strategy, "--profile", profile, "-q", "--hash"};
-      Words drawn = {"render", kScene, "--size", "120x90", "-o", "g.exr", "--aov", "depth,normal,albedo,id.object"};
-      Words lit = {"shade", "g.exr", "--lights", kScene};
+      const Arguments how = {"--pipeline", "p.json", "--strategy", strategy, "--profile", profile, "-q", "--hash"};
+      Arguments drawn = {"render", kScene, "--size", "120x90", "-o", "g.exr", "--aov", "depth,normal,albedo,id.object"};
+      Arguments lit = {"shade", "g.exr", "--lights", kScene};
       drawn.insert(drawn.end(), how.begin(), how.end()), lit.insert(lit.end(), how.begin(), how.end());
       const Outcome frame = run_command(drawn, c.path("")), again = run_command(lit, c.path(""));
       INFO(frame.err << again.err);
@@ -45,24 +45,23 @@ TEST_CASE("shade rebuilds positions from depth as render does, and blends into t
 
 TEST_CASE("compare judges by the G-buffer that a reference was shaded of, and not where that is not to be had") {
   const ScratchFolder folder;
-  const auto run = [&](const Words& words) { return run_command(words, folder.path("")); };
+  const auto run = [&](const Arguments& words) { return run_command(words, folder.path("")); };
   const auto says = [](const Outcome& outcome, const std::string& text) {
     INFO(outcome.out << outcome.err);
     CHECK(outcome.out.find(text) != std::string::npos);
   };
   // Another pixel grid than the scene's own: drawn anew, the planes would be other ones.
-  const Words planes = {"-q", "-o", "g.exr", "--aov", "depth,position,normal,albedo,id.object"};
-  write_bytes(folder.path("shifted.json"),
-              R"({"geometry": {"viewport": {"x": 3, "y": -2, "width": 64, "height": 64}}})");
-  Words drawn = {"render", "builtin:cornell", "--size", "64x64", "--pipeline", "shifted.json"};
+  const Arguments planes = {"-q", "-o", "g.exr", "--aov", "depth,position,normal,albedo,id.object"};
+  folder.write("shifted.json", R"({"geometry": {"viewport": {"x": 3, "y": -2, "width": 64, "height": 64}}})");
+  Arguments drawn = {"render", "builtin:cornell", "--size", "64x64", "--pipeline", "shifted.json"};
   drawn.insert(drawn.end(), planes.begin(), planes.end());
   REQUIRE(run(drawn).exit_code == 0);
-  const auto shade = [&](const std::string& file, const Words& more) {
-    Words words = {"shade", "g.exr", "--lights", "builtin:cornell", "-q", "--target", "rgba32f", "-o", file};
+  const auto shade = [&](const std::string& file, const Arguments& more) {
+    Arguments words = {"shade", "g.exr", "--lights", "builtin:cornell", "-q", "--target", "rgba32f", "-o", file};
     words.insert(words.end(), more.begin(), more.end());
     REQUIRE(run(words).exit_code == 0);
   };
-  write_bytes(folder.path("order.json"), R"({"light_model": {"order": "separate"}})");
+  folder.write("order.json", R"({"light_model": {"order": "separate"}})");
   shade("should.exr", {});
   shade("order.exr", {"--pipeline", "order.json"});  // the same light, rounded otherwise
   shade("wrong.exr", {"--preset", "light-volumes", "--strategy", "deferred-loop"});
@@ -84,17 +83,17 @@ TEST_CASE("compare judges by the G-buffer that a reference was shaded of, and no
 
 TEST_CASE("A light program reads planes of a capture by their names in --map, and refuses those that are not named") {
   const ScratchFolder folder;
-  const auto run = [&](const Words& words) { return run_command(words, folder.path("")); };
+  const auto run = [&](const Arguments& words) { return run_command(words, folder.path("")); };
   const std::string scene = "builtin:lecture";
-  write_bytes(folder.path("p.json"), R"({"target": "rgba32f", "light_volumes": {"point": "range", "spot": "range"}})");
+  folder.write("p.json", R"({"target": "rgba32f", "light_volumes": {"point": "range", "spot": "range"}})");
   REQUIRE(run({"render", scene, "--size", "64x48", "-q", "-o", "g.exr", "--aov",
                "depth,position,normal,albedo,uv,id.object,id.material"})
               .exit_code == 0);
   const auto lit = [&](const std::string& value, const std::string& more) {
-    write_bytes(folder.path("field.glsl"),
-                "vec3 light(Surface s, Light l, View v) { return vec3(0); }\n"
-                "vec3 start(Surface s, View v) { return " +
-                    value + "; }\n");
+    folder.write("field.glsl",
+                 "vec3 light(Surface s, Light l, View v) { return vec3(0); }\n"
+                 "vec3 start(Surface s, View v) { return " +
+                     value + "; }\n");
     return run({"shade", "g.exr", "--lights", scene, "--light-shader", "field.glsl", "--pipeline", "p.json", "--map",
                 "depth,position,normal,albedo,id.object" + more, "-o", "lit.exr", "--hash", "-q"});
   };
@@ -138,21 +137,21 @@ TEST_CASE("A light program reads planes of a capture by their names in --map, an
 
 TEST_CASE("Planes of metallic and roughness light a light program, and are held to the scene's materials") {
   const ScratchFolder folder;
-  const auto run = [&](const Words& words) { return run_command(words, folder.path("")); };
-  write_bytes(folder.path("s.json"), R"({"version": 1, "camera": {"eye": [0, 2, 4], "target": [0, 0, 0]},
+  const auto run = [&](const Arguments& words) { return run_command(words, folder.path("")); };
+  folder.write("s.json", R"({"version": 1, "camera": {"eye": [0, 2, 4], "target": [0, 0, 0]},
     "materials": [{"name": "m", "color": [0.8, 0.5, 0.3], "metallic": 0.25, "roughness": 0.7}],
     "objects": [{"mesh": "sphere", "material": "m"}],
     "lights": [{"type": "directional", "direction": [-1, -1, -1], "color": [1, 1, 1]}]})");
-  write_bytes(folder.path("metals.glsl"),
-              "vec3 light(Surface s, Light l, View v) { return vec3(0); }\n"
-              "vec3 start(Surface s, View v) { return vec3(s.metallic, s.roughness, 1.0 - s.roughness); }\n");
-  const Words program = {"--light-shader", "metals.glsl", "--target", "rgba32f", "-q"};
-  const auto with_program = [&](Words words) {
+  folder.write("metals.glsl",
+               "vec3 light(Surface s, Light l, View v) { return vec3(0); }\n"
+               "vec3 start(Surface s, View v) { return vec3(s.metallic, s.roughness, 1.0 - s.roughness); }\n");
+  const Arguments program = {"--light-shader", "metals.glsl", "--target", "rgba32f", "-q"};
+  const auto with_program = [&](Arguments words) {
     words.insert(words.end(), program.begin(), program.end());
     return run(words);
   };
-  REQUIRE(with_program({"render", "s.json", "--size", "64x48", "-o", "g.exr", "--aov",
-                        "depth,position,normal,albedo,id.object"})
+  REQUIRE(with_program(
+              {"render", "s.json", "--size", "64x48", "-o", "g.exr", "--aov", "depth,position,normal,albedo,id.object"})
               .exit_code == 0);
   const std::string planes = "depth,position,normal,albedo,id.object,color=g.RGBA,";
   const auto verdict = [&](const std::string& metals) {
@@ -171,8 +170,8 @@ TEST_CASE("Planes of metallic and roughness light a light program, and are held 
 
 TEST_CASE("shade refuses what a G-buffer cannot tell") {
   const DrawnCapture c;
-  const auto refused = [&](const Words& words, int code, const std::string& about) {
-    Words all = {"shade"};
+  const auto refused = [&](const Arguments& words, int code, const std::string& about) {
+    Arguments all = {"shade"};
     all.insert(all.end(), words.begin(), words.end());
     check_refused(run_command(all, c.path("")), code, about);
   };

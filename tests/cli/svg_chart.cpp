@@ -9,7 +9,7 @@
 namespace trueshade {
 namespace {
 
-constexpr double kLetter = 7.2, kHeight = 13;  // of a wide font of that size
+constexpr double kLetterWidth = 7.2, kLetterHeight = 13;  // of a wide font of that size
 
 struct Text {
   double left, right, y;
@@ -20,7 +20,7 @@ std::vector<Text> texts_of(const std::string& svg) {
   std::vector<Text> texts;
   const std::regex form("<text x=\"([-0-9.]+)\" y=\"([-0-9.]+)\" text-anchor=\"(\\w+)\"[^>]*>([^<]*)<");
   for (std::sregex_iterator i(svg.begin(), svg.end(), form), end; i != end; ++i) {
-    const double x = std::stod((*i)[1]), width = kLetter * double((*i)[4].length());
+    const double x = std::stod((*i)[1]), width = kLetterWidth * double((*i)[4].length());
     const double left = (*i)[3] == "start" ? x : (*i)[3] == "end" ? x - width : x - width / 2;
     texts.push_back({left, left + width, std::stod((*i)[2]), (*i)[4]});
   }
@@ -82,7 +82,7 @@ TEST_CASE("Labels of points that lie close together do not cover each other, and
     for (size_t k = 0; k < i; ++k) {
       INFO(labels[i].letters << " and " << labels[k].letters);
       CHECK((labels[i].left >= labels[k].right || labels[k].left >= labels[i].right ||
-             std::fabs(labels[i].y - labels[k].y) >= kHeight));
+             std::fabs(labels[i].y - labels[k].y) >= kLetterHeight));
     }
 }
 

@@ -3,24 +3,19 @@
 
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <optional>
 
 #include "core/error.h"
 #include "core/image_files/image_io.h"
 #include "tests/catch.hpp"
 #include "tests/cli/refused.h"
+#include "tests/file_contents.h"
 #include "tests/scratch_folder.h"
 
 namespace trueshade {
 namespace {
 
 constexpr uint64_t kMost = uint64_t(1) << 30;
-
-std::vector<uint8_t> bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// A picture as OpenImageIO writes it.
 std::vector<uint8_t> written(const std::string& kind, int width, int height, int channels, OIIO::TypeDesc type,
@@ -34,10 +29,11 @@ std::vector<uint8_t> written(const std::string& kind, int width, int height, int
   REQUIRE(file->open(path, spec));
   REQUIRE(file->write_image(type, texels));
   file->close();
-  return bytes_of(path);
+  const std::string bytes = contents(path);
+  return {bytes.begin(), bytes.end()};
 }
 
-std::optional<ErrorKind> refusal(std::span<const uint8_t> content, uint64_t most = kMost) {
+std::optional<ErrorKind> decoding_refusal(std::span<const uint8_t> content, uint64_t most = kMost) {
   try {
     decode_image(content, "picture", most);
     return std::nullopt;
@@ -98,12 +94,12 @@ TEST_CASE("cut-off pictures are refused at every length") {
                                         written("jpg", 24, 24, 3, OIIO::TypeDesc::UINT8, texels.data()),
                                         written("exr", 24, 8, 3, OIIO::TypeDesc::HALF, texels.data())};
   for (const std::vector<uint8_t>& file : files) {
-    CHECK_FALSE(refusal(file));
+    CHECK_FALSE(decoding_refusal(file));
     for (size_t length = 0; length < file.size(); ++length) {
       // The last 12 bytes of a PNG are its end alone, which adds nothing to the texels before it.
       if (file[0] == 0x89 && length >= file.size() - 12) break;
       INFO("first byte " << int(file[0]) << ", " << length << " of " << file.size() << " bytes");
-      CHECK(refusal(std::span(file).first(length)).has_value());
+      CHECK(decoding_refusal(std::span(file).first(length)).has_value());
     }
   }
 }
@@ -116,7 +112,7 @@ TEST_CASE("damaged pictures end in an answer or a refusal") {
     for (size_t at = 0; at < file.size(); ++at) {
       std::vector<uint8_t> damaged = file;
       damaged[at] = uint8_t(damaged[at] ^ (1u << (at % 8)));
-      refusal(damaged);
+      decoding_refusal(damaged);
     }
   }
 }
@@ -126,22 +122,22 @@ TEST_CASE("sizes are refused before they are allocated") {
   const std::vector<uint8_t> png = written("png", 8, 8, 4, OIIO::TypeDesc::UINT8, texels.data()),
                              jpg = written("jpg", 8, 8, 3, OIIO::TypeDesc::UINT8, texels.data()),
                              exr = written("exr", 8, 8, 3, OIIO::TypeDesc::HALF, texels.data());
-  CHECK(refusal(png, 255) == ErrorKind::limit);
-  CHECK(refusal(jpg, 255) == ErrorKind::limit);
-  CHECK(refusal(exr, 255) == ErrorKind::limit);
-  CHECK_FALSE(refusal(png, 256));
+  CHECK(decoding_refusal(png, 255) == ErrorKind::limit);
+  CHECK(decoding_refusal(jpg, 255) == ErrorKind::limit);
+  CHECK(decoding_refusal(exr, 255) == ErrorKind::limit);
+  CHECK_FALSE(decoding_refusal(png, 256));
   std::vector<uint8_t> huge = png;  // IHDR's width is at byte 16
   huge[16] = 0x7f;
-  CHECK(refusal(huge) == ErrorKind::limit);
+  CHECK(decoding_refusal(huge) == ErrorKind::limit);
   std::vector<uint8_t> none = png;
   none[19] = 0;
-  CHECK(refusal(none) == ErrorKind::bad_input);
+  CHECK(decoding_refusal(none) == ErrorKind::bad_input);
   std::vector<uint8_t> wide = jpg;
   for (size_t at = 0; at + 8 < wide.size(); ++at)
     if (wide[at] == 0xFF && wide[at + 1] == 0xC0) wide[at + 5] = wide[at + 7] = 0xff;  // 65288 x 65288
-  CHECK(refusal(wide) == ErrorKind::limit);
-  CHECK(refusal(std::vector<uint8_t>{'G', 'I', 'F', '8', '9', 'a'}) == ErrorKind::bad_input);
-  CHECK(refusal({}) == ErrorKind::bad_input);
+  CHECK(decoding_refusal(wide) == ErrorKind::limit);
+  CHECK(decoding_refusal(std::vector<uint8_t>{'G', 'I', 'F', '8', '9', 'a'}) == ErrorKind::bad_input);
+  CHECK(decoding_refusal({}) == ErrorKind::bad_input);
 }
 
 TEST_CASE("the command refuses bad textures in one line") {

@@ -1,22 +1,14 @@
 // --timeout and --max-pixels, and pictures that are larger than any frame.
 #include <chrono>
-#include <fstream>
-#include <iterator>
 
 #include "tests/catch.hpp"
 #include "tests/cli/refused.h"
 #include "tests/cli/run_command.h"
+#include "tests/file_contents.h"
 #include "tests/scratch_folder.h"
 
 namespace trueshade {
-namespace {
-
-std::string content_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("A run with --timeout ends within a second, in one line, and every file is whole") {
   const ScratchFolder folder;
@@ -33,7 +25,7 @@ TEST_CASE("A run with --timeout ends within a second, in one line, and every fil
   for (const std::string& name : names) {
     INFO(name);
     CHECK(name.ends_with(".png"));
-    CHECK(content_of(folder.path(name)).ends_with("IEND\xae\x42\x60\x82"));
+    CHECK(contents(folder.path(name)).ends_with("IEND\xae\x42\x60\x82"));
   }
 }
 
@@ -46,7 +38,7 @@ TEST_CASE("A picture that --timeout has ended goes on with --resume") {
   const Outcome outcome = run_command(ended, folder.path(""));
   if (outcome.exit_code == 0) return;  // this machine is fast
   check_refused(outcome, 4, "--timeout");
-  CHECK(content_of(folder.path("x.png")).empty());
+  CHECK(contents(folder.path("x.png")).empty());
   CHECK(run_command(resumed, folder.path("")).exit_code == 0);
   CHECK(folder.entries() == std::vector<std::string>{"x.png"});
 }

@@ -5,14 +5,15 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "core/image_files/image_io.h"
 #include "tests/catch.hpp"
 #include "tests/cli/refused.h"
 #include "tests/cli/run_command.h"
+#include "tests/file_contents.h"
 #include "tests/scratch_folder.h"
+#include "tests/text_parts.h"
 
 namespace trueshade {
 namespace {
@@ -32,8 +33,6 @@ Outcome judged(const ScratchFolder& folder, const Arguments& options) {
   arguments.insert(arguments.end(), options.begin(), options.end());
   return run_command(arguments, folder.path(""));
 }
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// c.exr again as `name`, with `change` made to a plane.
 template <typename Change>
@@ -423,8 +422,7 @@ TEST_CASE("a post chain is not judged, and text, JSON and page say so") {
   CHECK(target.exit_code == 0);
   CHECK(has(target.out, "note        the post chain is not judged"));
   CHECK(has(target.out, "verdict     every pixel is explained; the post chain is not judged"));
-  std::ifstream page(folder.path("v.html"));
-  CHECK(has({std::istreambuf_iterator<char>(page), {}}, "the post chain is not judged"));
+  CHECK(has(contents(folder.path("v.html")), "the post chain is not judged"));
   const Outcome listed = judged(folder, {"--gbuffer", "t.exr", "--pipeline", "p.json", "--json"});
   CHECK(has(listed.out, R"("post_chain": "not judged")"));
   CHECK(has(judged(folder, {"--gbuffer", "t.exr", "--pipeline", "q.json", "--json"}).out, R"("post_chain": "none")"));

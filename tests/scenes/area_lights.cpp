@@ -4,6 +4,7 @@
 
 #include "expect_error.h"
 #include "gltf/round_trip.h"
+#include "scene_text.h"
 #include "scenes/pipeline/light_mesh.h"
 #include "scenes/pipeline/presets.h"
 #include "scenes/scene.h"
@@ -19,14 +20,10 @@ constexpr const char* kLights = R"([
   {"type": "rectangle", "position": [0, 4, 0], "right": [2, 0, 0], "up": [0, 0, -1]},
   {"type": "disk", "position": [0, 1, -3], "right": [0.5, 0, 0], "up": [0, 0.5, 0]}])";
 
-Scene load(const std::string& text) {
-  const ScratchFolder scratch;
-  return load_scene(scratch.write("s.json", text));
-}
 Scene with_lights(const std::string& lights) {
-  return load(R"({"version": 1, "objects": [{"mesh": "cube"}], "lights": )" + lights + "}");
+  return scene_of_text(R"({"version": 1, "objects": [{"mesh": "cube"}], "lights": )" + lights + "}");
 }
-std::string refusal(const std::string& light) {
+std::string area_light_refusal(const std::string& light) {
   const std::string said = error_of(ErrorKind::bad_input, [&] { with_lights("[{" + light + "}]"); });
   return said.substr(said.find("s.json: ") + 8);
 }
@@ -51,17 +48,20 @@ TEST_CASE("Lights with an area have extents, and flat ones the direction to whic
 
 TEST_CASE("Lights with an area are refused without one, or with sides that make none") {
   const std::string flat = R"("type": "rectangle", "position": [0, 0, 0], )";
-  CHECK_STARTS_WITH(refusal(R"("type": "sphere", "position": [0, 0, 0])"), "/lights/0");
-  CHECK_STARTS_WITH(refusal(R"("type": "sphere", "position": [0, 0, 0], "radius": 0)"), "/lights/0/radius");
-  CHECK_STARTS_WITH(refusal(R"("type": "sphere", "position": [0, 0, 0], "radius": 1, "up": [1, 0, 0])"), "/lights/0");
-  CHECK_STARTS_WITH(refusal(flat + R"("right": [1, 0, 0])"), "/lights/0");
-  CHECK_STARTS_WITH(refusal(flat + R"("right": [1, 0, 0], "up": [0, 1, 0], "direction": [0, 0, 1])"), "/lights/0");
-  CHECK_STARTS_WITH(refusal(flat + R"("right": [0, 0, 0], "up": [0, 1, 0])"), "light 0: right or up has no length");
-  CHECK_STARTS_WITH(refusal(flat + R"("right": [1, 0, 0], "up": [0.5, 1, 0])"),
+  CHECK_STARTS_WITH(area_light_refusal(R"("type": "sphere", "position": [0, 0, 0])"), "/lights/0");
+  CHECK_STARTS_WITH(area_light_refusal(R"("type": "sphere", "position": [0, 0, 0], "radius": 0)"), "/lights/0/radius");
+  CHECK_STARTS_WITH(area_light_refusal(R"("type": "sphere", "position": [0, 0, 0], "radius": 1, "up": [1, 0, 0])"),
+                    "/lights/0");
+  CHECK_STARTS_WITH(area_light_refusal(flat + R"("right": [1, 0, 0])"), "/lights/0");
+  CHECK_STARTS_WITH(area_light_refusal(flat + R"("right": [1, 0, 0], "up": [0, 1, 0], "direction": [0, 0, 1])"),
+                    "/lights/0");
+  CHECK_STARTS_WITH(area_light_refusal(flat + R"("right": [0, 0, 0], "up": [0, 1, 0])"),
+                    "light 0: right or up has no length");
+  CHECK_STARTS_WITH(area_light_refusal(flat + R"("right": [1, 0, 0], "up": [0.5, 1, 0])"),
                     "light 0: right and up are not at right angles");
-  CHECK_STARTS_WITH(refusal(R"("type": "disk", "position": [0, 0, 0], "right": [1, 0, 0], "up": [0, 2, 0])"),
+  CHECK_STARTS_WITH(area_light_refusal(R"("type": "disk", "position": [0, 0, 0], "right": [1, 0, 0], "up": [0, 2, 0])"),
                     "light 0: right and up of the disk are not of one length");
-  CHECK_STARTS_WITH(refusal(R"("type": "tube", "position": [0, 0, 0], "right": [0, 0, 0], "radius": 1)"),
+  CHECK_STARTS_WITH(area_light_refusal(R"("type": "tube", "position": [0, 0, 0], "right": [0, 0, 0], "radius": 1)"),
                     "light 0: right has no length");
 }
 
@@ -111,7 +111,8 @@ TEST_CASE("Lights beside a scene that is referred to stand in the place of that 
   folder.write("inner.json", R"({"version": 1, "objects": [{"mesh": "cube"}], "lights": [
     {"type": "point", "steps": [{"time": 0, "position": [0, 1, 0]}, {"time": 2, "position": [4, 1, 0]}]}]})");
   Scene scene = load_scene(folder.write("outer.json", std::string(R"({"version": 1, "scene": "inner.json",
-    "light_changes": [{"light": 1, "on": false}], "lights": )") + kLights + "}"));
+    "light_changes": [{"light": 1, "on": false}], "lights": )") +
+                                                          kLights + "}"));
   set_time(scene, 2);
   REQUIRE(scene.lights.size() == 4);
   CHECK(scene.instances.size() == 1);
@@ -139,7 +140,8 @@ TEST_CASE("A flat light's volume is the half of a sphere to which it shines") {
   CHECK(mesh.neighbour.size() == mesh.indices.size());
   std::vector<glm::vec3> at(mesh.unit.size());
   light_vertices(mesh, flat, at);
-  double volume = 0;  // closed, and counter-clockwise seen from outside: above 0, and a little less than the ball's half
+  // Closed, and counter-clockwise seen from outside: above 0, and a little less than the ball's half.
+  double volume = 0;
   for (size_t i = 0; i < mesh.indices.size(); i += 3) {
     const glm::dvec3 a(at[mesh.indices[i]] - flat.position), b(at[mesh.indices[i + 1]] - flat.position),
         c(at[mesh.indices[i + 2]] - flat.position);

@@ -198,20 +198,21 @@ TEST_CASE("lecture is a textured room under spot lights that sweep") {
   }
 }
 
-std::string refusal(const std::string& spec, ErrorKind kind = ErrorKind::bad_input) {
+std::string builtin_refusal(const std::string& spec, ErrorKind kind = ErrorKind::bad_input) {
   return error_of(kind, [&] { builtin_scene(spec); });
 }
 
 TEST_CASE("bad specs are refused with what would be right") {
-  CHECK_STARTS_WITH(refusal(""), "builtin:: no built-in scene has this name");
-  CHECK_STARTS_WITH(refusal("City"), "builtin:City: no built-in scene has this name (did you mean city? one of city rabbits");
-  CHECK_STARTS_WITH(refusal("city,"), "builtin:city,: '' has no value");
-  CHECK_STARTS_WITH(refusal("city,lights"), "builtin:city,lights: 'lights' has no value");
+  CHECK_STARTS_WITH(builtin_refusal(""), "builtin:: no built-in scene has this name");
+  CHECK_STARTS_WITH(builtin_refusal("City"),
+                    "builtin:City: no built-in scene has this name (did you mean city? one of city rabbits");
+  CHECK_STARTS_WITH(builtin_refusal("city,"), "builtin:city,: '' has no value");
+  CHECK_STARTS_WITH(builtin_refusal("city,lights"), "builtin:city,lights: 'lights' has no value");
   for (const char* bad : {"city,lights=", "city,lights=-1", "city,lights=1.5", "city,lights= 1",
                           "city,lights=99999999999", "city,objects=0", "city,seed=18446744073709551616",
                           "city,radius=big", "city,color=red", "city,seed=1,seed=1", "sphere,objects=2"})
-    refusal(bad);
-  refusal("city,lights=1048577", ErrorKind::limit);
+    builtin_refusal(bad);
+  builtin_refusal("city,lights=1048577", ErrorKind::limit);
 }
 
 }  // namespace

@@ -9,8 +9,7 @@
 #include "scenes/scene_defaults.h"
 #include "tests/catch.hpp"
 
-using namespace trueshade;
-
+namespace trueshade {
 namespace {
 
 /// Points about the origin, as one mesh without triangles to speak of.
@@ -204,3 +203,5 @@ TEST_CASE("What is drawn nowhere has a camera all the same") {
   CHECK(camera.near > 0.0f);
   CHECK(camera.near < camera.far);
 }
+
+}  // namespace trueshade

@@ -12,7 +12,7 @@
 namespace trueshade {
 namespace {
 
-Scene loaded(const std::string& obj) {
+Scene loaded_obj(const std::string& obj) {
   const ScratchFolder folder;
   return load_scene(folder.write("m.obj", obj));
 }
@@ -28,7 +28,7 @@ std::string box(double x, double y, double z, double size) {
 
 TEST_CASE("geometry alone: the ground lies just below, faces up, is wide, and ends before the far plane") {
   for (const double size : {1e-3, 1.0, 700.0}) {
-    const Scene scene = loaded(box(3.0 * size, -2.0 * size, size, size));
+    const Scene scene = loaded_obj(box(3.0 * size, -2.0 * size, size, size));
     REQUIRE(scene.instances.size() == 2);
     const Mesh& ground = scene.meshes[scene.instances[1].mesh];
     const double radius = 0.5 * std::sqrt(3.0) * size;
@@ -57,8 +57,8 @@ TEST_CASE("geometry alone: the ground lies just below, faces up, is wide, and en
 }
 
 TEST_CASE("geometry alone: nothing to stand on the ground, or no room for it, gives none") {
-  CHECK(loaded(box(3e17, 0.0, 0.0, 1.1e17)).instances.size() == 1);
-  CHECK(loaded("v 0 0 0\nf 1 1 1\n").instances.size() == 2);
+  CHECK(loaded_obj(box(3e17, 0.0, 0.0, 1.1e17)).instances.size() == 1);
+  CHECK(loaded_obj("v 0 0 0\nf 1 1 1\n").instances.size() == 2);
 }
 
 TEST_CASE("geometry alone: reflectance is that of materials and vertices, each object by its triangles") {
@@ -80,7 +80,7 @@ TEST_CASE("geometry alone: reflectance is that of materials and vertices, each o
 TEST_CASE("geometry alone: lights are up to five times as bright on dark surfaces") {
   constexpr double kKey = 1.45;  // red of the key light on grey
   const auto key_light = [](const std::string& color) {
-    return loaded("v 0 0 0 " + color + "\nv 1 0 0 " + color + "\nv 0 1 0 " + color + "\nf 1 2 3\n")
+    return loaded_obj("v 0 0 0 " + color + "\nv 1 0 0 " + color + "\nv 0 1 0 " + color + "\nf 1 2 3\n")
         .lights.at(0)
         .color.x;
   };
@@ -95,7 +95,7 @@ TEST_CASE("geometry alone: where light spreads by the inverse square, a model of
   Pipeline spreading;
   spreading.light_model.falloff = Falloff::inverse_square;
   const auto key_at_model = [&](double size) {
-    Scene scene = loaded(box(0.0, 0.0, 0.0, size));
+    Scene scene = loaded_obj(box(0.0, 0.0, 0.0, size));
     const Light before = scene.lights.at(0);
     fit_lights_of_ours(scene, Pipeline{});
     CHECK(scene.lights.at(0).color == before.color);
@@ -106,7 +106,7 @@ TEST_CASE("geometry alone: where light spreads by the inverse square, a model of
   const double one = key_at_model(1.0);
   CHECK(one == Approx(0.4 * 1.45));
   for (const double size : {1e-3, 0.2, 700.0}) CHECK(key_at_model(size) == Approx(one));
-  Scene scene = loaded(box(0.0, 0.0, 0.0, 1.0));
+  Scene scene = loaded_obj(box(0.0, 0.0, 0.0, 1.0));
   const glm::vec3 ambient = scene.lights.at(3).color;
   fit_lights_of_ours(scene, spreading);
   CHECK(scene.lights.at(3).color == ambient);
@@ -128,10 +128,10 @@ TEST_CASE("geometry alone: lamps so near that no float holds their falloff shine
   };
   Pipeline spreading;
   spreading.light_model.falloff = Falloff::inverse_square;
-  const Scene one = loaded(box_of("1"));
+  const Scene one = loaded_obj(box_of("1"));
   for (const char* size : {"1e-20", "1e-10", "1e-8", "1e17"}) {
     INFO(size);
-    Scene scene = loaded(box_of(size));
+    Scene scene = loaded_obj(box_of(size));
     REQUIRE(scene.lights.size() == one.lights.size());
     for (size_t i = 0; i + 1 < one.lights.size(); ++i) {
       const Light &lamp = scene.lights[i], &usual = one.lights[i];
@@ -157,7 +157,7 @@ TEST_CASE("geometry alone: lamps so near that no float holds their falloff shine
 }
 
 TEST_CASE("geometry alone: where a light program divides diffuse light by pi, lamps have pi times as much") {
-  Scene formula = loaded(box(0.0, 0.0, 0.0, 1.0)), program = formula;
+  Scene formula = loaded_obj(box(0.0, 0.0, 0.0, 1.0)), program = formula;
   fit_lights_of_ours(formula, *preset_pipeline("punctual"));
   fit_lights_of_ours(program, *preset_pipeline("gltf"));
   REQUIRE(program.lights.size() == formula.lights.size());
@@ -168,7 +168,7 @@ TEST_CASE("geometry alone: where a light program divides diffuse light by pi, la
   }
   Pipeline ends = Pipeline{};  // behind a preset whose light falls off otherwise
   ends.light_program = preset_pipeline("gltf")->light_program;
-  Scene same = loaded(box(0.0, 0.0, 0.0, 1.0));
+  Scene same = loaded_obj(box(0.0, 0.0, 0.0, 1.0));
   fit_lights_of_ours(same, ends);
   CHECK(same.lights.at(0).color == program.lights.at(0).color);
 }

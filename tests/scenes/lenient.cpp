@@ -10,7 +10,7 @@
 namespace trueshade {
 namespace {
 
-SceneLimits with(Leniency leniency) {
+SceneLimits limits_with(Leniency leniency) {
   SceneLimits limits;
   limits.leniency = leniency;
   return limits;
@@ -22,21 +22,20 @@ constexpr const char* kHint = "; add --lenient to look at it all the same)";
 Scene passed(const std::string& content, ErrorKind kind = ErrorKind::bad_input) {
   const std::string strict = gltf_refusal(content, kind);
   CHECK(strict.find("--lenient") == std::string::npos);
-  CHECK(gltf_refusal(content, kind, with(Leniency::offered)) == strict.substr(0, strict.size() - 1) + kHint);
-  return load_gltf(content, with(Leniency::asked));
+  CHECK(gltf_refusal(content, kind, limits_with(Leniency::offered)) == strict.substr(0, strict.size() - 1) + kHint);
+  return load_gltf(content, limits_with(Leniency::asked));
 }
 
 std::string the_fault(const Scene& scene) {
   CHECK(scene.passed_over.size() == 1);
   const std::string line = scene.passed_over.empty() ? "" : scene.passed_over.front();
-  CHECK(std::find(scene.notes.begin(), scene.notes.end(), "As --lenient asks, which makes this no reference: " + line) != scene.notes.end());
+  CHECK(std::find(scene.notes.begin(), scene.notes.end(),
+                  "As --lenient asks, which makes this no reference: " + line) != scene.notes.end());
   return line;
 }
 
-const std::vector<float> kTriangle{0, 0, 0, 1, 0, 0, 0, 1, 0};
-
 /// A triangle with a material, whose JSON this is, and further lists.
-std::string textured(const std::string& material, const std::string& more) {
+std::string triangle_of_material(const std::string& material, const std::string& more) {
   Asset asset;
   asset.accessor(kTriangle, "VEC3");
   asset.accessor(std::vector<float>{0, 0, 1, 0, 0, 1}, "VEC2");
@@ -45,23 +44,24 @@ std::string textured(const std::string& material, const std::string& more) {
 }
 
 TEST_CASE("lenient: a file without faults is the same scene, and says nothing") {
-  const std::string content = textured("", "");
-  const Scene strict = load_gltf(content), lenient = load_gltf(content, with(Leniency::asked));
+  const std::string content = triangle_of_material("", "");
+  const Scene strict = load_gltf(content), lenient = load_gltf(content, limits_with(Leniency::asked));
   CHECK(scene_hash(lenient) == scene_hash(strict));
   CHECK(lenient.passed_over.empty());
   CHECK(lenient.notes == strict.notes);
 }
 
 TEST_CASE("lenient: what a picture that cannot be read would colour is grey, and the others stay") {
-  const std::string good = "data:image/png;base64," + base64(std::string("\x89PNG\r\n\x1a\n") + "\x01\x01" + "abcd");
+  const std::string good = "data:image/png;base64," + base64(plain_picture(1, 1, "abcd"));
   const std::string maps = R"("pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0.25, 1],
       "baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 0}},
     "normalTexture": {"index": 0, "scale": 3}, "occlusionTexture": {"index": 1, "strength": 0.5},
     "emissiveTexture": {"index": 0}, "emissiveFactor": [1, 1, 1])";
   for (const char* bad : {"absent.png", "../out.png", "data:image/png;base64,AAAA", "C:/windows.png"}) {
-    const Scene scene = passed(textured(maps, R"("textures": [{"source": 0}, {"source": 1}], "images": [{"uri": ")" +
-                                                  std::string(bad) + R"("}, {"uri": ")" + good + "\"}]"),
-                               std::string(bad) == "absent.png" ? ErrorKind::io : ErrorKind::bad_input);
+    const Scene scene =
+        passed(triangle_of_material(maps, R"("textures": [{"source": 0}, {"source": 1}], "images": [{"uri": ")" +
+                                              std::string(bad) + R"("}, {"uri": ")" + good + "\"}]"),
+               std::string(bad) == "absent.png" ? ErrorKind::io : ErrorKind::bad_input);
     CHECK_STARTS_WITH(the_fault(scene), "1 picture cannot be read, so what it colours is grey: ");
     const Material& m = scene.materials.at(0);
     CHECK(m.base_color == glm::vec4(0.5f, 0.25f, 0.125f, 1.0f));
@@ -78,11 +78,12 @@ TEST_CASE("lenient: what a picture that cannot be read would colour is grey, and
 }
 
 TEST_CASE("lenient: a limit stays one") {
-  SceneLimits limits = with(Leniency::asked);
+  SceneLimits limits = limits_with(Leniency::asked);
   limits.texture_bytes = 3;
-  const std::string picture = "data:image/png;base64," + base64(std::string("\x89PNG\r\n\x1a\n") + "\x01\x01" + "abcd");
-  const std::string content = textured(R"("pbrMetallicRoughness": {"baseColorTexture": {"index": 0}})",
-                                       R"("textures": [{"source": 0}], "images": [{"uri": ")" + picture + "\"}]");
+  const std::string picture = "data:image/png;base64," + base64(plain_picture(1, 1, "abcd"));
+  const std::string content =
+      triangle_of_material(R"("pbrMetallicRoughness": {"baseColorTexture": {"index": 0}})",
+                           R"("textures": [{"source": 0}], "images": [{"uri": ")" + picture + "\"}]");
   CHECK(gltf_refusal(content, ErrorKind::limit, limits).find("--lenient") == std::string::npos);
 }
 
@@ -103,7 +104,7 @@ TEST_CASE("lenient: required extensions of materials and textures are left out, 
   }
   for (const char* shapes : {"KHR_draco_mesh_compression", "KHR_gaussian_splatting", "ACME_secret"})
     for (const Leniency leniency : {Leniency::offered, Leniency::asked})
-      CHECK(gltf_refusal(requiring(shapes), ErrorKind::bad_input, with(leniency)).find("--lenient") ==
+      CHECK(gltf_refusal(requiring(shapes), ErrorKind::bad_input, limits_with(leniency)).find("--lenient") ==
             std::string::npos);
 }
 
@@ -141,10 +142,11 @@ TEST_CASE("lenient: a stride never leads out of its view") {
     asset.accessor(R"("bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3")");
     const std::string content = asset.gltf(one_primitive(R"("attributes": {"POSITION": 0})"));
     if (std::string(stride) == "4" || std::string(stride) == "5")  // overlapping elements, all within
-      CHECK(load_gltf(content, with(Leniency::asked)).triangle_count() == 1);
+      CHECK(load_gltf(content, limits_with(Leniency::asked)).triangle_count() == 1);
     else
-      CHECK(gltf_refusal(content, ErrorKind::bad_input, with(Leniency::asked)).find("do not fit into the view") !=
-            std::string::npos);
+      CHECK(
+          gltf_refusal(content, ErrorKind::bad_input, limits_with(Leniency::asked)).find("do not fit into the view") !=
+          std::string::npos);
   }
 }
 
@@ -172,7 +174,7 @@ TEST_CASE("lenient: a scene's node that is no root is drawn, and once") {
 TEST_CASE("lenient: a material's map has no texture coordinates in the mesh, and an attribute is none of glTF's") {
   Asset asset;
   asset.accessor(kTriangle, "VEC3");
-  const std::string picture = "data:image/png;base64," + base64(std::string("\x89PNG\r\n\x1a\n") + "\x01\x01" + "abcd");
+  const std::string picture = "data:image/png;base64," + base64(plain_picture(1, 1, "abcd"));
   for (const char* set : {"0", "1", "7"}) {
     const Scene scene = passed(asset.gltf(one_primitive(
         R"("attributes": {"POSITION": 0}, "material": 0)", "",
@@ -195,7 +197,7 @@ Scene passed_file(const std::string& path, const std::string& reason) {
   for (const Leniency leniency : {Leniency::refused, Leniency::offered}) {
     std::string error;
     try {
-      load_scene(path, with(leniency), decode_plain);
+      load_scene(path, limits_with(leniency), decode_plain);
     } catch (const Error& caught) {
       error = caught.what();
     }
@@ -206,7 +208,7 @@ Scene passed_file(const std::string& path, const std::string& reason) {
     CHECK(named == (leniency == Leniency::offered ? 1u : 0u));
     CHECK((error.find(kHint) != std::string::npos) == (leniency == Leniency::offered));
   }
-  return load_scene(path, with(Leniency::asked), decode_plain);
+  return load_scene(path, limits_with(Leniency::asked), decode_plain);
 }
 
 constexpr const char* kObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n";
@@ -286,7 +288,7 @@ TEST_CASE("lenient: a face of OBJ that names what is not there is left out") {
   CHECK_STARTS_WITH(the_fault(scene), "2 statements are left out: ");
   CHECK(scene.notes.size() == 1);
   error_of(ErrorKind::bad_input,
-           [&] { load_scene(folder.write("none.obj", "f 1 2 3\n"), with(Leniency::asked), decode_plain); });
+           [&] { load_scene(folder.write("none.obj", "f 1 2 3\n"), limits_with(Leniency::asked), decode_plain); });
 }
 
 TEST_CASE("lenient: a file that names a scene and has none draws all of its roots") {
@@ -301,7 +303,7 @@ TEST_CASE("lenient: a file that names a scene and has none draws all of its root
 TEST_CASE("lenient: pictures of a scene file, and models that it names") {
   const ScratchFolder folder;
   folder.write("m.obj", std::string("mtllib absent.mtl\n") + kObj);
-  folder.write("good.png", std::string("\x89PNG\r\n\x1a\n") + "\x01\x01" + "abcd");
+  folder.write("good.png", plain_picture(1, 1, "abcd"));
   const Scene scene =
       passed_file(folder.write("s.json", R"({"version": 1, "textures": [{"name": "a", "file": "absent.png"},
     {"name": "b", "file": "good.png"}], "materials": [{"name": "m", "color": [1, 1, 1], "color_map": {"texture": "a"},
@@ -366,7 +368,7 @@ TEST_CASE("trusted paths may be absolute, lead out of the folder and be links, a
 TEST_CASE("trusted paths: every kind of file that a scene names is read from elsewhere") {
   const ScratchFolder scratch;
   const std::string far = scratch.path("far");
-  scratch.write("far/p.png", std::string("\x89PNG\r\n\x1a\n") + "\x01\x01" + "abcd");
+  scratch.write("far/p.png", plain_picture(1, 1, "abcd"));
   scratch.write("far/a.mtl", "newmtl m\nmap_Kd p.png\n");
   scratch.write("far/lights.csv", "1,2,3\n");
   Asset asset;

@@ -71,7 +71,7 @@ TEST_CASE("a table of any bytes is read or refused, and what is read is finite")
   CHECK(refused > 1000);
 }
 
-Image floats(int width, int height) {
+Image float_picture(int width, int height) {
   Image image(width, height, Format::rgba32f);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
@@ -82,19 +82,19 @@ Image floats(int width, int height) {
 }
 
 TEST_CASE("a picture's texels are samples, rows top first") {
-  CHECK(samples_from_image(floats(2, 2), "p.exr", 9) ==
+  CHECK(samples_from_image(float_picture(2, 2), "p.exr", 9) ==
         Samples{{0.0f, 0.0f, 0.5f}, {1.0f, 0.0f, 0.5f}, {0.0f, 1.0f, 0.5f}, {1.0f, 1.0f, 0.5f}});
   error_of(ErrorKind::bad_input, [] { samples_from_image(Image(1, 1, Format::rgba8), "p.png", 9); });
-  error_of(ErrorKind::limit, [] { samples_from_image(floats(4, 3), "p.exr", 11); });
+  error_of(ErrorKind::limit, [] { samples_from_image(float_picture(4, 3), "p.exr", 11); });
 }
 
 /// A decoder that knows one picture.
 Image decoded(std::span<const uint8_t> content, const std::string& where, uint64_t) {
   if (content.size() != 11) throw Error(ErrorKind::bad_input, where, "it is no picture", "one");
-  return floats(3, 1);
+  return float_picture(3, 1);
 }
 
-Scene load(const std::string& lights, const ImageDecoder& decode = decoded) {
+Scene load_lights(const std::string& lights, const ImageDecoder& decode = decoded) {
   const ScratchFolder scratch;
   scratch.write("p.csv", "tx,ty,tz\n1,2,3\n4,5,6\n7,8,9\n");
   scratch.write("two.csv", "1,1,1\n1,1,1\n");
@@ -108,7 +108,7 @@ Scene load(const std::string& lights, const ImageDecoder& decode = decoded) {
 }
 
 TEST_CASE("sample i of each buffer is light i, from numbers, a table and a picture alike") {
-  const Scene scene = load(R"({"type": "ambient"}, {"type": "buffers", "position": "p.csv", "color": "c.exr",
+  const Scene scene = load_lights(R"({"type": "ambient"}, {"type": "buffers", "position": "p.csv", "color": "c.exr",
       "falloff": [[1, 0, 1], [1, 0, 2], [1, 0, 3]], "intensity": 2, "range": 9})");
   REQUIRE(scene.lights.size() == 4);
   for (int i = 0; i < 3; ++i) {
@@ -119,10 +119,10 @@ TEST_CASE("sample i of each buffer is light i, from numbers, a table and a pictu
     CHECK(light.attenuation == glm::vec3(1.0f, 0.0f, float(i + 1)));
     CHECK(light.range == 9.0f);
   }
-  const Scene bare = load(R"({"type": "buffers", "position": [[0, 0, 0]]})");
+  const Scene bare = load_lights(R"({"type": "buffers", "position": [[0, 0, 0]]})");
   CHECK(bare.lights[0].color == glm::vec3(1.0f));
   CHECK(bare.lights[0].attenuation == glm::vec3(1.0f, 0.0f, 0.0f));
-  CHECK(load(R"({"type": "buffers", "position": []})").lights.empty());
+  CHECK(load_lights(R"({"type": "buffers", "position": []})").lights.empty());
 }
 
 TEST_CASE("buffers that do not fit are refused at their place") {
@@ -149,11 +149,11 @@ TEST_CASE("buffers that do not fit are refused at their place") {
   };
   for (const auto& [lights, start] : cases) {
     INFO(lights);
-    const std::string message = error_of(ErrorKind::bad_input, [&, l = lights] { load(l); });
+    const std::string message = error_of(ErrorKind::bad_input, [&, l = lights] { load_lights(l); });
     CHECK_STARTS_WITH(message.substr(message.find("s.json")), start);
   }
-  error_of(ErrorKind::io, [] { load(R"({"type": "buffers", "position": "absent.csv"})"); });
-  error_of(ErrorKind::bad_input, [] { load(R"({"type": "buffers", "position": "c.exr"})", {}); });
+  error_of(ErrorKind::io, [] { load_lights(R"({"type": "buffers", "position": "absent.csv"})"); });
+  error_of(ErrorKind::bad_input, [] { load_lights(R"({"type": "buffers", "position": "c.exr"})", {}); });
 }
 
 }  // namespace

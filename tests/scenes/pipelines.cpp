@@ -8,7 +8,7 @@
 namespace trueshade {
 namespace {
 
-std::string refusal(const std::string& text) {
+std::string pipeline_refusal(const std::string& text) {
   return error_of(ErrorKind::bad_input, [&] { pipeline_from_json(text, "p.json", {}); });
 }
 
@@ -115,7 +115,7 @@ TEST_CASE("a light model that a text states takes the place of a preset's progra
   CHECK(pipeline_from_json(text, "p.json", *preset_pipeline("gltf")) == expected);
   const Pipeline named = pipeline_from_json(R"({"light_program": {"file": "ue4"}})", "p.json", {});
   CHECK(pipeline_from_json(text, "p.json", named).light_program.file == "ue4");
-  CHECK_STARTS_WITH(refusal(R"({"preset": "gltf", "light_model": {"damping": 0.5}})"),
+  CHECK_STARTS_WITH(pipeline_refusal(R"({"preset": "gltf", "light_model": {"damping": 0.5}})"),
                     "p.json: light_model beside the preset gltf, which draws by a light program");
 }
 
@@ -173,7 +173,8 @@ TEST_CASE("bad pipelines are refused at their pointer") {
       {R"({"geometry": {"viewport": {"w": 3}}})", "p.json: /geometry/viewport/w: this key is unknown"},
       {R"({"geometry": {"viewport": {"width": -1}}})", "p.json: /geometry/viewport/width: found -1"},
       {R"({"geometry": {"depth_near": 1.25}})", "p.json: /geometry/depth_near: found 1.25 (a number from 0 to 1)"},
-      {R"({"geometry": {"depth_func": "LESS"}})", "p.json: /geometry/depth_func: found \"LESS\" (did you mean less? one of never less"},
+      {R"({"geometry": {"depth_func": "LESS"}})",
+       "p.json: /geometry/depth_func: found \"LESS\" (did you mean less? one of never less"},
       {R"({"geometry": {"depth_format": "r32ui"}})",
        "p.json: /geometry/depth_format: found \"r32ui\" (one of d32f d24 d16)"},
       {R"({"geometry": {"polygon_offset_units": 2e18}})", "p.json: /geometry/polygon_offset_units: found 2e+18"},
@@ -228,11 +229,11 @@ TEST_CASE("bad pipelines are refused at their pointer") {
       {R"({"view": "wireframe"})", "p.json: /view: found \"wireframe\" (one of lit albedo"},
       {R"({"target": "rgba8", "target": "rgba8"})", "p.json: /target: this key is given twice"},
   };
-  for (const auto& [text, start] : cases) CHECK_STARTS_WITH(refusal(text), start);
+  for (const auto& [text, start] : cases) CHECK_STARTS_WITH(pipeline_refusal(text), start);
 }
 
 template <typename Change>
-std::string invalid(const Change& change) {
+std::string invalid_pipeline(const Change& change) {
   Pipeline p;
   change(p);
   return error_of(ErrorKind::usage, [&] { validate(p); });
@@ -240,28 +241,30 @@ std::string invalid(const Change& change) {
 
 TEST_CASE("pipelines out of range are named by field") {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.width = 0; }), "width: 0 is out of range (1 to 1048576");
-  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.height = 1048577; }), "height: 1048577");
-  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.target = Format::r32ui; }), "target: r32ui");
-  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.gbuffer.normal.format = Format::rgba8; }),
+  CHECK_STARTS_WITH(invalid_pipeline([](Pipeline& p) { p.width = 0; }), "width: 0 is out of range (1 to 1048576");
+  CHECK_STARTS_WITH(invalid_pipeline([](Pipeline& p) { p.height = 1048577; }), "height: 1048577");
+  CHECK_STARTS_WITH(invalid_pipeline([](Pipeline& p) { p.target = Format::r32ui; }), "target: r32ui");
+  CHECK_STARTS_WITH(invalid_pipeline([](Pipeline& p) { p.gbuffer.normal.format = Format::rgba8; }),
                     "gbuffer.normal.format: rgba8");
-  CHECK_STARTS_WITH(invalid([&](Pipeline& p) { p.light_model.shininess = kNan; }), "light_model.shininess");
-  CHECK_STARTS_WITH(invalid([&](Pipeline& p) { p.light_model.specular_color.y = INFINITY; }),
+  CHECK_STARTS_WITH(invalid_pipeline([&](Pipeline& p) { p.light_model.shininess = kNan; }), "light_model.shininess");
+  CHECK_STARTS_WITH(invalid_pipeline([&](Pipeline& p) { p.light_model.specular_color.y = INFINITY; }),
                     "light_model.specular_color");
-  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.light_model.order = TermOrder::albedo_last; }), "light_model.order");
-  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.light_model.cone = Cone(9); }), "light_model.cone");
-  CHECK_STARTS_WITH(invalid([&](Pipeline& p) { p.light_model.damping = kNan; }), "light_model.damping");
-  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.light_model.global_ambient.y = -1.0f; }), "light_model.global_ambient");
-  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.gbuffer.specular = Format::rgb16f; }), "gbuffer.specular");
-  CHECK_STARTS_WITH(invalid([&](Pipeline& p) { p.geometry.clear_depth = kNan; }), "geometry.clear_depth");
-  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.geometry.depth_func = DepthFunc(9); }), "geometry.depth_func");
-  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.geometry.depth_format = Format::rgba8; }),
+  CHECK_STARTS_WITH(invalid_pipeline([](Pipeline& p) { p.light_model.order = TermOrder::albedo_last; }),
+                    "light_model.order");
+  CHECK_STARTS_WITH(invalid_pipeline([](Pipeline& p) { p.light_model.cone = Cone(9); }), "light_model.cone");
+  CHECK_STARTS_WITH(invalid_pipeline([&](Pipeline& p) { p.light_model.damping = kNan; }), "light_model.damping");
+  CHECK_STARTS_WITH(invalid_pipeline([](Pipeline& p) { p.light_model.global_ambient.y = -1.0f; }),
+                    "light_model.global_ambient");
+  CHECK_STARTS_WITH(invalid_pipeline([](Pipeline& p) { p.gbuffer.specular = Format::rgb16f; }), "gbuffer.specular");
+  CHECK_STARTS_WITH(invalid_pipeline([&](Pipeline& p) { p.geometry.clear_depth = kNan; }), "geometry.clear_depth");
+  CHECK_STARTS_WITH(invalid_pipeline([](Pipeline& p) { p.geometry.depth_func = DepthFunc(9); }), "geometry.depth_func");
+  CHECK_STARTS_WITH(invalid_pipeline([](Pipeline& p) { p.geometry.depth_format = Format::rgba8; }),
                     "geometry.depth_format: rgba8 is out of range (d32f, d24 or d16)");
-  CHECK_STARTS_WITH(invalid([&](Pipeline& p) { p.geometry.polygon_offset_factor = kNan; }),
+  CHECK_STARTS_WITH(invalid_pipeline([&](Pipeline& p) { p.geometry.polygon_offset_factor = kNan; }),
                     "geometry.polygon_offset_factor");
-  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.geometry.polygon_offset_units = INFINITY; }),
+  CHECK_STARTS_WITH(invalid_pipeline([](Pipeline& p) { p.geometry.polygon_offset_units = INFINITY; }),
                     "geometry.polygon_offset_units");
-  CHECK_STARTS_WITH(invalid([](Pipeline& p) {
+  CHECK_STARTS_WITH(invalid_pipeline([](Pipeline& p) {
                       p.gbuffer.position_from_depth = true;
                       p.geometry.depth_near = 1.0f;
                     }),
@@ -280,19 +283,21 @@ TEST_CASE("every profile has every target format") {
 }
 
 TEST_CASE("light volumes and blending out of range are named by field") {
-  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.light_volumes.slices = 65; }), "light_volumes.slices: 65");
-  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.light_volumes.stacks = 1; }), "light_volumes.stacks: 1");
-  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.light_volumes.spot = LightExtent(5); }), "light_volumes.spot: 5");
-  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.blend.alpha.dst = BlendFactor(15); }), "blend: dst: 15");
-  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.blend.constant[2] = INFINITY; }), "blend.constant");
-  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.strategy = Strategy(4); }), "strategy: 4");
+  CHECK_STARTS_WITH(invalid_pipeline([](Pipeline& p) { p.light_volumes.slices = 65; }), "light_volumes.slices: 65");
+  CHECK_STARTS_WITH(invalid_pipeline([](Pipeline& p) { p.light_volumes.stacks = 1; }), "light_volumes.stacks: 1");
+  CHECK_STARTS_WITH(invalid_pipeline([](Pipeline& p) { p.light_volumes.spot = LightExtent(5); }),
+                    "light_volumes.spot: 5");
+  CHECK_STARTS_WITH(invalid_pipeline([](Pipeline& p) { p.blend.alpha.dst = BlendFactor(15); }), "blend: dst: 15");
+  CHECK_STARTS_WITH(invalid_pipeline([](Pipeline& p) { p.blend.constant[2] = INFINITY; }), "blend.constant");
+  CHECK_STARTS_WITH(invalid_pipeline([](Pipeline& p) { p.strategy = Strategy(4); }), "strategy: 4");
 }
 
 TEST_CASE("transparency out of range is named by field, and wants a G-buffer where it blends into one") {
-  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.transparency.mode = TransparencyMode(3); }), "transparency.mode: 3");
-  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.transparency.blend.rgb.src = BlendFactor(15); }),
+  CHECK_STARTS_WITH(invalid_pipeline([](Pipeline& p) { p.transparency.mode = TransparencyMode(3); }),
+                    "transparency.mode: 3");
+  CHECK_STARTS_WITH(invalid_pipeline([](Pipeline& p) { p.transparency.blend.rgb.src = BlendFactor(15); }),
                     "transparency.blend: src: 15");
-  CHECK_STARTS_WITH(invalid([](Pipeline& p) { p.transparency.blend.constant[0] = INFINITY; }),
+  CHECK_STARTS_WITH(invalid_pipeline([](Pipeline& p) { p.transparency.blend.constant[0] = INFINITY; }),
                     "transparency.blend.constant");
   const auto into_albedo = [](Strategy strategy, NumericProfile profile, Format plane) {
     return [=](Pipeline& p) {
@@ -304,7 +309,7 @@ TEST_CASE("transparency out of range is named by field, and wants a G-buffer whe
   };
   constexpr NumericProfile kIdeal = NumericProfile::ideal, kMesa = NumericProfile::mesa_llvmpipe_22_3;
   for (const Strategy forward : {Strategy::forward_multipass, Strategy::forward_loop})
-    CHECK_STARTS_WITH(invalid(into_albedo(forward, kIdeal, Format::rgba8)),
+    CHECK_STARTS_WITH(invalid_pipeline(into_albedo(forward, kIdeal, Format::rgba8)),
                       "transparency.mode: into-albedo blends into the G-buffer, which forward-");
   for (const Format plane : kAlbedoFormats)
     for (const Strategy deferred : {Strategy::deferred_volumes, Strategy::deferred_loop})

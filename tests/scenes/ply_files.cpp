@@ -1,6 +1,7 @@
 #include <bit>
 #include <cstring>
 
+#include "bytes_of.h"
 #include "expect_error.h"
 #include "scenes/files/load_geometry.h"
 #include "scenes/scene.h"
@@ -15,14 +16,12 @@ constexpr std::string_view kQuad =
     "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
     "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
 
-Bytes bytes_of(std::string_view text) { return {text.begin(), text.end()}; }
-
-Mesh read(std::string_view text, MissingNormals normals = MissingNormals::flat) {
+Mesh read_ply(std::string_view text, MissingNormals normals = MissingNormals::flat) {
   return mesh_from_ply(bytes_of(text), "m.ply", normals);
 }
 
-std::string refusal(std::string_view text) {
-  return error_of(ErrorKind::bad_input, [&] { read(text); });
+std::string ply_refusal(std::string_view text) {
+  return error_of(ErrorKind::bad_input, [&] { read_ply(text); });
 }
 
 std::string replaced(std::string_view text, std::string_view from, std::string_view to) {
@@ -69,7 +68,7 @@ std::string binary_quad(bool big_endian) {
 }
 
 TEST_CASE("a text file's square becomes a fan of two triangles with flat normals") {
-  const Mesh mesh = read(kQuad);
+  const Mesh mesh = read_ply(kQuad);
   CHECK(mesh.triangle_count() == 2);
   CHECK(mesh.vertex_count() == 6);
   CHECK(mesh.position[0] == std::vector<float>{0, 1, 1, 0, 1, 0});
@@ -79,11 +78,11 @@ TEST_CASE("a text file's square becomes a fan of two triangles with flat normals
 }
 
 TEST_CASE("smooth normals keep the vertices and weigh triangles by area") {
-  const Mesh square = read(kQuad, MissingNormals::smooth);
+  const Mesh square = read_ply(kQuad, MissingNormals::smooth);
   CHECK(square.indices == std::vector<uint32_t>{0, 1, 2, 0, 2, 3});
   CHECK(square.normal[2] == std::vector<float>(4, 1.0f));
   // A large triangle facing +z and a small one facing +x meet in vertices 0 and 1.
-  const Mesh bent = read(
+  const Mesh bent = read_ply(
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n"
       "property list uchar int vertex_indices\nend_header\n0 0 0\n0 1 0\n-3 0 0\n0 0 -1\n3 0 1 2\n3 0 3 1\n",
       MissingNormals::smooth);
@@ -95,7 +94,7 @@ TEST_CASE("smooth normals keep the vertices and weigh triangles by area") {
 
 TEST_CASE("binary files of both byte orders read alike, unknown elements and properties skipped") {
   for (const bool big_endian : {false, true}) {
-    const Mesh mesh = read(binary_quad(big_endian));
+    const Mesh mesh = read_ply(binary_quad(big_endian));
     CHECK(mesh.indices == std::vector<uint32_t>{0, 1, 2, 0, 2, 3});
     CHECK(mesh.position[0] == std::vector<float>{0, 1, 1, 0});
     CHECK(mesh.position[2] == std::vector<float>(4, -2.0f));
@@ -111,60 +110,65 @@ TEST_CASE("a file cut at any byte is refused") {
   const std::string text(kQuad);
   for (size_t size = 0; size + 1 < text.size(); ++size) {  // without the last line end it is whole
     INFO(size);
-    CHECK_STARTS_WITH(refusal(text.substr(0, size)), "m.ply: line ");
+    CHECK_STARTS_WITH(ply_refusal(text.substr(0, size)), "m.ply: line ");
   }
-  CHECK_NOTHROW(read(text.substr(0, text.size() - 1)));
+  CHECK_NOTHROW(read_ply(text.substr(0, text.size() - 1)));
   for (const bool big_endian : {false, true}) {
     const std::string binary = binary_quad(big_endian);
-    for (size_t size = 0; size < binary.size(); ++size) refusal(binary.substr(0, size));
-    CHECK_STARTS_WITH(refusal(binary.substr(0, binary.size() - 1)), "m.ply: byte ");
-    CHECK_STARTS_WITH(refusal(binary + "x"), "m.ply: byte ");
+    for (size_t size = 0; size < binary.size(); ++size) ply_refusal(binary.substr(0, size));
+    CHECK_STARTS_WITH(ply_refusal(binary.substr(0, binary.size() - 1)), "m.ply: byte ");
+    CHECK_STARTS_WITH(ply_refusal(binary + "x"), "m.ply: byte ");
   }
   const std::string packed = gzipped(kQuad);
   for (size_t size = 0; size < packed.size(); ++size)
-    error_of(ErrorKind::bad_input,
-             [&] { mesh_from_file(bytes_of(packed.substr(0, size)), "m.ply.gz", SceneLimits{.file_bytes = 1 << 20}, MissingNormals::flat); });
+    error_of(ErrorKind::bad_input, [&] {
+      mesh_from_file(bytes_of(packed.substr(0, size)), "m.ply.gz", SceneLimits{.file_bytes = 1 << 20},
+                     MissingNormals::flat);
+    });
 }
 
 TEST_CASE("bad text files are refused with the line") {
-  CHECK_STARTS_WITH(refusal("solid\n"), "m.ply: line 1: the file does not start with 'ply'");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "ascii", "ascii2")), "m.ply: line 2: the format is unknown");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "comment", "remark")), "m.ply: line 3: 'remark' is no keyword");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "vertex 4", "vertex -4")), "m.ply: line 4: the count is no whole number");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "vertex 4", "vertex 4000000000")),
+  CHECK_STARTS_WITH(ply_refusal("solid\n"), "m.ply: line 1: the file does not start with 'ply'");
+  CHECK_STARTS_WITH(ply_refusal(replaced(kQuad, "ascii", "ascii2")), "m.ply: line 2: the format is unknown");
+  CHECK_STARTS_WITH(ply_refusal(replaced(kQuad, "comment", "remark")), "m.ply: line 3: 'remark' is no keyword");
+  CHECK_STARTS_WITH(ply_refusal(replaced(kQuad, "vertex 4", "vertex -4")),
+                    "m.ply: line 4: the count is no whole number");
+  CHECK_STARTS_WITH(ply_refusal(replaced(kQuad, "vertex 4", "vertex 4000000000")),
                     "m.ply: line 11: element vertex says 4000000000");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "vertex 4", "vertex 18446744073709551615")),
+  CHECK_STARTS_WITH(ply_refusal(replaced(kQuad, "vertex 4", "vertex 18446744073709551615")),
                     "m.ply: line 11: element vertex says");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "float y", "float x")), "m.ply: line 6: property x is given twice");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "float y", "float w")),
+  CHECK_STARTS_WITH(ply_refusal(replaced(kQuad, "float y", "float x")), "m.ply: line 6: property x is given twice");
+  CHECK_STARTS_WITH(ply_refusal(replaced(kQuad, "float y", "float w")),
                     "m.ply: line 11: the vertices have only some of x to z");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "float y", "quad y")), "m.ply: line 6: 'quad' is no type");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "list uchar int", "list float int")),
+  CHECK_STARTS_WITH(ply_refusal(replaced(kQuad, "float y", "quad y")), "m.ply: line 6: 'quad' is no type");
+  CHECK_STARTS_WITH(ply_refusal(replaced(kQuad, "list uchar int", "list float int")),
                     "m.ply: line 9: the length of a list is a float");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "vertex_indices", "corners")), "m.ply: line 14: the faces have no list");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "1 1 0", "1 nan 0")), "m.ply: line 13: vertex 2: y is out of range");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "1 1 0", "1 inf 0")), "m.ply: line 13: vertex 2: y is out of range");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "1 1 0", "1 2e18 0")), "m.ply: line 13: vertex 2: y is out of range");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "1 1 0", "1 0x1 0")), "m.ply: line 13: '0x1' is no number");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "1 1 0", "1 1,5 0")), "m.ply: line 13: '1,5' is no number");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "4 0 1 2 3", "4 0 1 2 4")),
+  CHECK_STARTS_WITH(ply_refusal(replaced(kQuad, "vertex_indices", "corners")),
+                    "m.ply: line 14: the faces have no list");
+  CHECK_STARTS_WITH(ply_refusal(replaced(kQuad, "1 1 0", "1 nan 0")), "m.ply: line 13: vertex 2: y is out of range");
+  CHECK_STARTS_WITH(ply_refusal(replaced(kQuad, "1 1 0", "1 inf 0")), "m.ply: line 13: vertex 2: y is out of range");
+  CHECK_STARTS_WITH(ply_refusal(replaced(kQuad, "1 1 0", "1 2e18 0")), "m.ply: line 13: vertex 2: y is out of range");
+  CHECK_STARTS_WITH(ply_refusal(replaced(kQuad, "1 1 0", "1 0x1 0")), "m.ply: line 13: '0x1' is no number");
+  CHECK_STARTS_WITH(ply_refusal(replaced(kQuad, "1 1 0", "1 1,5 0")), "m.ply: line 13: '1,5' is no number");
+  CHECK_STARTS_WITH(ply_refusal(replaced(kQuad, "4 0 1 2 3", "4 0 1 2 4")),
                     "m.ply: line 15: face 0: index 4 is beyond the vertices (from 0 to below 4)");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "4 0 1 2 3", "4 0 1 2 -1")), "m.ply: line 15: face 0: index -1");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "4 0 1 2 3", "2 0 1")), "m.ply: line 15: face 0 has 2 corners");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "4 0 1 2 3", "200 0 1 2 3")), "m.ply: line 15: a list says 200");
-  CHECK_STARTS_WITH(refusal(replaced(kQuad, "4 0 1 2 3", "300 0 1 2 3")),
+  CHECK_STARTS_WITH(ply_refusal(replaced(kQuad, "4 0 1 2 3", "4 0 1 2 -1")), "m.ply: line 15: face 0: index -1");
+  CHECK_STARTS_WITH(ply_refusal(replaced(kQuad, "4 0 1 2 3", "2 0 1")), "m.ply: line 15: face 0 has 2 corners");
+  CHECK_STARTS_WITH(ply_refusal(replaced(kQuad, "4 0 1 2 3", "200 0 1 2 3")), "m.ply: line 15: a list says 200");
+  CHECK_STARTS_WITH(ply_refusal(replaced(kQuad, "4 0 1 2 3", "300 0 1 2 3")),
                     "m.ply: line 15: '300' does not fit its type");
-  CHECK_STARTS_WITH(refusal(std::string(kQuad) + "7\n"), "m.ply: line 16: more data after the last element");
-  CHECK_STARTS_WITH(refusal(std::string("ply\n") + std::string(100000, 'x')), "m.ply: line 2: the header has no end");
+  CHECK_STARTS_WITH(ply_refusal(std::string(kQuad) + "7\n"), "m.ply: line 16: more data after the last element");
+  CHECK_STARTS_WITH(ply_refusal(std::string("ply\n") + std::string(100000, 'x')),
+                    "m.ply: line 2: the header has no end");
 }
 
 TEST_CASE("where the header counts too many or too few vertices, the first face that cannot be read says so") {
   const auto with_count = [](const char* count) {
-    return refusal(replaced(kQuad, "element vertex 4", std::string("element vertex ") + count));
+    return ply_refusal(replaced(kQuad, "element vertex 4", std::string("element vertex ") + count));
   };
   CHECK_STARTS_WITH(with_count("3"), "m.ply: line 14: face 0 has 0 corners; perhaps the vertices are not 3, as the");
   CHECK_STARTS_WITH(with_count("5"), "m.ply: line 15: face 0 has 2 corners; perhaps the vertices are not 5, as the");
-  CHECK_STARTS_WITH(refusal(replaced(replaced(kQuad, "face 1", "face 2"), "4 0 1 2 3", "3 0 1 2\n2 0 1")),
+  CHECK_STARTS_WITH(ply_refusal(replaced(replaced(kQuad, "face 1", "face 2"), "4 0 1 2 3", "3 0 1 2\n2 0 1")),
                     "m.ply: line 16: face 1 has 2 corners (");
 }
 
@@ -186,18 +190,22 @@ TEST_CASE("a header of too many elements or properties is refused before names a
 }
 
 TEST_CASE("text may use tabs, CRLF, plus signs and one line for all") {
-  const Mesh mesh = read(replaced(kQuad, "1 0 0\n1 1 0\n", "+1\t0 0 1 1.0e0 0\r\n"));
+  const Mesh mesh = read_ply(replaced(kQuad, "1 0 0\n1 1 0\n", "+1\t0 0 1 1.0e0 0\r\n"));
   CHECK(mesh.position[0] == std::vector<float>{0, 1, 1, 0, 1, 0});
 }
 
 TEST_CASE("a compressed file is unpacked, up to the limit and not beyond") {
   const Bytes packed = bytes_of(gzipped(kQuad));
-  CHECK(mesh_from_file(packed, "m.ply.gz", SceneLimits{.file_bytes = kQuad.size()}, MissingNormals::flat).triangle_count() == 2);
-  error_of(ErrorKind::limit, [&] { mesh_from_file(packed, "m.ply.gz", SceneLimits{.file_bytes = kQuad.size() - 1}, MissingNormals::flat); });
+  CHECK(mesh_from_file(packed, "m.ply.gz", SceneLimits{.file_bytes = kQuad.size()}, MissingNormals::flat)
+            .triangle_count() == 2);
+  error_of(ErrorKind::limit, [&] {
+    mesh_from_file(packed, "m.ply.gz", SceneLimits{.file_bytes = kQuad.size() - 1}, MissingNormals::flat);
+  });
   const Bytes bomb = bytes_of(gzipped(std::string(32 << 20, ' ')));
   CHECK(bomb.size() < 40000);
   error_of(ErrorKind::limit, [&] { gunzipped(bomb, SceneLimits{.file_bytes = 1 << 20}, "bomb.ply.gz"); });
-  error_of(ErrorKind::bad_input, [&] { gunzipped(bytes_of("no gzip at all"), SceneLimits{.file_bytes = 1 << 20}, "x.gz"); });
+  error_of(ErrorKind::bad_input,
+           [&] { gunzipped(bytes_of("no gzip at all"), SceneLimits{.file_bytes = 1 << 20}, "x.gz"); });
   const std::string two = gzipped("ab") + gzipped("cd");
   CHECK(gunzipped(bytes_of(two), SceneLimits{.file_bytes = 100}, "two.gz") == bytes_of("abcd"));
 }

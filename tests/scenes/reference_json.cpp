@@ -21,12 +21,12 @@ std::string referring(const std::string& name, const std::string& more = "") {
   return R"({"version": 1, "scene": ")" + name + '"' + more + '}';
 }
 
-Scene loaded(const ScratchFolder& folder, const std::string& text) {
+Scene loaded_outer(const ScratchFolder& folder, const std::string& text) {
   return load_scene(folder.write("outer.json", text));
 }
 
-std::string refusal(const ScratchFolder& folder, const std::string& text, ErrorKind kind = ErrorKind::bad_input,
-                    const SceneLimits& limits = {}) {
+std::string reference_refusal(const ScratchFolder& folder, const std::string& text,
+                              ErrorKind kind = ErrorKind::bad_input, const SceneLimits& limits = {}) {
   const std::string path = folder.write("outer.json", text);
   const std::string said = error_of(kind, [&] { load_scene(path, limits); });
   return said.starts_with(path) ? said.substr(path.size()) : said;
@@ -35,12 +35,12 @@ std::string refusal(const ScratchFolder& folder, const std::string& text, ErrorK
 TEST_CASE("A scene that refers to another is that scene, but for what stands beside the reference") {
   const ScratchFolder folder;
   const Scene inner = load_scene(folder.write("inner.json", kInner));
-  const Scene same = loaded(folder, referring("inner.json"));
+  const Scene same = loaded_outer(folder, referring("inner.json"));
   CHECK(scene_hash(same) == scene_hash(inner));
   CHECK(same.timeline.fps == 30.0);
   CHECK(same.pipeline_text == inner.pipeline_text);
   CHECK(same.timeline.camera.size() == 1);
-  const Scene other = loaded(folder, referring("inner.json", R"(, "fps": 12, "clear": [1, 0, 0, 1],
+  const Scene other = loaded_outer(folder, referring("inner.json", R"(, "fps": 12, "clear": [1, 0, 0, 1],
     "pipeline": {"height": 33}, "camera": {"eye": [1, 2, 3], "target": [0, 0, 0]})"));
   CHECK(other.timeline.fps == 12.0);
   CHECK(other.clear == glm::vec4(1, 0, 0, 1));
@@ -54,12 +54,12 @@ TEST_CASE("A scene that refers to another is that scene, but for what stands bes
 TEST_CASE("A scene that shows another at a time stands there, whatever the time is") {
   const ScratchFolder folder;
   folder.write("inner.json", kInner);
-  Scene scene = loaded(folder, referring("inner.json", R"(, "time": 1.5)"));
+  Scene scene = loaded_outer(folder, referring("inner.json", R"(, "time": 1.5)"));
   CHECK(scene.time == 1.5);
   CHECK(frame_at(scene) == 45);
   set_time(scene, 0.25);
   CHECK(scene.time == 1.5);
-  Scene moving = loaded(folder, referring("inner.json"));
+  Scene moving = loaded_outer(folder, referring("inner.json"));
   set_time(moving, 0.25);
   CHECK(moving.time == 0.25);
   CHECK(frame_at(moving) == 8);  // 7.5: of two that are as near, the later
@@ -70,7 +70,7 @@ TEST_CASE("A scene that shows another at a time stands there, whatever the time 
 TEST_CASE("Lights are changed as the other scene was loaded, one change after the other, and then the time is set") {
   const ScratchFolder folder;
   folder.write("inner.json", kInner);
-  const Scene still = loaded(folder, referring("inner.json", R"(, "time": 1, "light_changes": [
+  const Scene still = loaded_outer(folder, referring("inner.json", R"(, "time": 1, "light_changes": [
     {"light": 0, "intensity": 8}, {"light": 0, "intensity": 0.5}, {"light": 1, "on": false}])"));
   CHECK(still.lights[0].color == glm::vec3(2, 2, 0));  // half of red and half of green, four times
   CHECK(still.lights[0].position == glm::vec3(2, 1, 0));
@@ -78,7 +78,7 @@ TEST_CASE("Lights are changed as the other scene was loaded, one change after th
   CHECK(still.camera.eye == glm::vec3(2, 2, 2));
   CHECK(still.timeline.empty());
   CHECK(still.timeline.fps == 30.0);
-  Scene moving = loaded(folder, referring("inner.json", R"(, "light_changes": [
+  Scene moving = loaded_outer(folder, referring("inner.json", R"(, "light_changes": [
     {"light": 1, "intensity": 2}, {"light": 1, "color": [1, 1, 1]}, {"light": 1, "intensity": 3},
     {"light": 0, "position": [7, 8, 9]}])"));
   set_time(moving, 2.0);
@@ -123,21 +123,22 @@ TEST_CASE("References are of one step, and neither to themselves nor in circles"
   folder.write("middle.json", referring("inner.json"));
   folder.write("circle.json", referring("outer.json"));
   const std::string reason = "/scene: another scene refers to this one, which refers to one more";
-  CHECK_THAT(refusal(folder, referring("middle.json")), Catch::Contains("middle.json: " + reason));
-  CHECK_THAT(refusal(folder, referring("circle.json")), Catch::Contains("circle.json: " + reason));
-  CHECK_STARTS_WITH(refusal(folder, referring("outer.json")), ": " + reason);
+  CHECK_THAT(reference_refusal(folder, referring("middle.json")), Catch::Contains("middle.json: " + reason));
+  CHECK_THAT(reference_refusal(folder, referring("circle.json")), Catch::Contains("circle.json: " + reason));
+  CHECK_STARTS_WITH(reference_refusal(folder, referring("outer.json")), ": " + reason);
 }
 
 TEST_CASE("What does not go with a reference is refused at its place") {
   const ScratchFolder folder;
   folder.write("inner.json", kInner);
   const auto refused = [&](const std::string& more, const std::string& where) {
-    CHECK_STARTS_WITH(refusal(folder, referring("inner.json", more)), where);
+    CHECK_STARTS_WITH(reference_refusal(folder, referring("inner.json", more)), where);
   };
   for (const std::string own : {"objects", "materials", "textures"})
     refused(", \"" + own + "\": []", ": /" + own + ": it stands beside \"scene\"");
   for (const std::string alone : {R"("time": 1)", R"("light_changes": [])"})
-    CHECK_THAT(refusal(folder, R"({"version": 1, )" + alone + '}'), Catch::Contains("it stands without \"scene\""));
+    CHECK_THAT(reference_refusal(folder, R"({"version": 1, )" + alone + '}'),
+               Catch::Contains("it stands without \"scene\""));
   refused(R"(, "light_changes": [{"light": 1}, {"light": 2}])", ": /light_changes/1/light: there is no such light");
   refused(R"(, "light_changes": [{"light": 0, "colour": [1, 1, 1]}])",
           ": /light_changes/0/colour: this key is unknown");
@@ -146,9 +147,10 @@ TEST_CASE("What does not go with a reference is refused at its place") {
   refused(R"(, "light_changes": [{"light": 0, "intensity": -1}])", ": /light_changes/0/intensity");
   refused(R"(, "light_changes": [{"light": 0, "color": [1, -1, 1]}])", ": /light_changes/0/color/1");
   refused(R"(, "time": 1e7)", ": /time");
-  CHECK_STARTS_WITH(refusal(folder, referring("inner.json", R"(, "light_changes": [{"light": 1, "intensity": 1e18},
+  CHECK_STARTS_WITH(
+      reference_refusal(folder, referring("inner.json", R"(, "light_changes": [{"light": 1, "intensity": 1e18},
     {"light": 1, "intensity": 1e18}])")),
-                    "outer.json: light 1: the colour is negative, over 1e18 or no number");
+      "outer.json: light 1: the colour is negative, over 1e18 or no number");
   std::string many;
   for (int i = 0; i < 1001; ++i) many += (i == 0 ? "" : ",") + std::string(R"({"light": 1, "intensity": 1})");
   refused(", \"light_changes\": [" + many + ']', ": /light_changes/1000: its light is changed more than 1000 times");
@@ -159,12 +161,14 @@ TEST_CASE("Limits hold for the scene that is referred to, and for the changes") 
   folder.write("inner.json", kInner);
   SceneLimits limits;
   limits.lights = 1;
-  CHECK_THAT(refusal(folder, referring("inner.json"), ErrorKind::limit, limits), Catch::Contains("inner.json"));
+  CHECK_THAT(reference_refusal(folder, referring("inner.json"), ErrorKind::limit, limits),
+             Catch::Contains("inner.json"));
   const std::string two = R"(, "light_changes": [{"light": 0}, {"light": 0}])";
-  refusal(folder, referring("builtin:cornell", two), ErrorKind::limit, limits);
+  reference_refusal(folder, referring("builtin:cornell", two), ErrorKind::limit, limits);
   limits = {};
   limits.json_bytes = 200;  // of each text
-  CHECK_THAT(refusal(folder, referring("inner.json"), ErrorKind::limit, limits), Catch::Contains("--max-json"));
+  CHECK_THAT(reference_refusal(folder, referring("inner.json"), ErrorKind::limit, limits),
+             Catch::Contains("--max-json"));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "expect_error.h"
+#include "scene_text.h"
 #include "scenes/json/json_value.h"
 #include "scenes/pipeline/pipeline.h"
 #include "scenes/scene.h"
@@ -12,36 +13,34 @@
 namespace trueshade {
 namespace {
 
-constexpr std::string_view kTriangle =
+constexpr std::string_view kPlyTriangle =
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
     "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
-Scene load(const std::string& text) {
+Scene load_with_plys(const std::string& text) {
   const ScratchFolder scratch;
-  scratch.write("t.ply", kTriangle);
+  scratch.write("t.ply", kPlyTriangle);
   scratch.write("bad.ply", "ply\n");
   return load_scene(scratch.write("s.json", text));
 }
 
-std::string refusal(const std::string& text, ErrorKind kind = ErrorKind::bad_input) {
-  const std::string message = error_of(kind, [&] { load(text); });
-  const size_t name = message.find("s.json");
-  return name == std::string::npos ? message : message.substr(name);  // without the scratch folder
+std::string scene_refusal(const std::string& text, ErrorKind kind = ErrorKind::bad_input) {
+  return from_file_name(error_of(kind, [&] { load_with_plys(text); }));
 }
 
-std::string with(const std::string& key, const std::string& value) {
+std::string with_key(const std::string& key, const std::string& value) {
   return R"({"version": 1, ")" + key + "\": " + value + "}";
 }
 
 TEST_CASE("an empty scene has a camera and draws nothing") {
-  const Scene scene = load(R"({"version": 1})");
+  const Scene scene = load_with_plys(R"({"version": 1})");
   CHECK(scene.spec == "s.json");
   CHECK(scene.triangle_count() == 0);
   CHECK(scene.pipeline_text.empty());
 }
 
 TEST_CASE("objects share geometry, our meshes and materials") {
-  const Scene scene = load(with("objects", R"([
+  const Scene scene = load_with_plys(with_key("objects", R"([
     {"geometry": "t.ply"}, {"geometry": "./t.ply", "color": [1, 0, 0]}, {"geometry": "t.ply", "normals": "smooth", "color": [1, 0, 0]},
     {"mesh": "cube"}, {"mesh": "cube", "position": [1, 2, 3], "rotation_deg": [0, 90, 0], "scale": [2, 3, 4]},
     {"geometry": "t.ply", "rotation": [0, 0.70710678, 0, 0.70710678], "scale": 2}])"));
@@ -59,7 +58,7 @@ TEST_CASE("objects share geometry, our meshes and materials") {
 }
 
 TEST_CASE("lights of every type, a ring among them") {
-  const Scene scene = load(with("lights", R"([
+  const Scene scene = load_with_plys(with_key("lights", R"([
     {"type": "ambient", "color": [0.1, 0.2, 0.3], "intensity": 2},
     {"type": "directional", "direction": [0, -2, 0]},
     {"type": "point", "position": [1, 2, 3], "range": 4, "attenuation": [1, 2, 3]},
@@ -78,16 +77,18 @@ TEST_CASE("lights of every type, a ring among them") {
 }
 
 TEST_CASE("cameras by angle along either axis and by matrix") {
-  const Scene x = load(with("camera", R"({"eye": [0, 0, 9], "fov_deg": 90, "fov_axis": "x", "near": 1, "far": 20})"));
+  const Scene x =
+      load_with_plys(with_key("camera", R"({"eye": [0, 0, 9], "fov_deg": 90, "fov_axis": "x", "near": 1, "far": 20})"));
   CHECK(*x.camera.fov_x_rad == Approx(1.5707963));
-  const Scene m =
-      load(with("camera", R"({"eye": [0, 0, 9], "clip_from_world": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]})"));
+  const Scene m = load_with_plys(
+      with_key("camera", R"({"eye": [0, 0, 9], "clip_from_world": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]})"));
   CHECK((*m.camera.clip_from_world)[5] == 1.0f);
 }
 
 TEST_CASE(
     "a material has a specular colour, emission and glTF's two numbers, lights an ambient share and an exponent") {
-  const Scene scene = load(with("materials", R"([{"name": "a", "color": [1, 1, 1]}, {"name": "b", "color": [1, 1, 1],
+  const Scene scene =
+      load_with_plys(with_key("materials", R"([{"name": "a", "color": [1, 1, 1]}, {"name": "b", "color": [1, 1, 1],
       "specular_color": [0.1, 0.2, 0.3], "shininess": 60, "emission": [1, 2, 3], "metallic": 0.25, "roughness": 0.5}])"));
   const Material& plain = scene.materials.at(0);
   CHECK(plain.specular_color == glm::vec3(0.25f));
@@ -99,15 +100,16 @@ TEST_CASE(
   CHECK(m.emission == glm::vec3(1.0f, 2.0f, 3.0f));
   CHECK(m.metallic == 0.25f);
   CHECK(m.roughness == 0.5f);
-  const Light light = load(with("lights", R"([{"type": "spot", "position": [0, 1, 0], "direction": [0, -1, 0],
+  const Light light =
+      load_with_plys(with_key("lights", R"([{"type": "spot", "position": [0, 1, 0], "direction": [0, -1, 0],
       "cone_deg": 30, "ambient": [0.1, 0, 0], "spot_exponent": 2.5}])"))
-                          .lights.at(0);
+          .lights.at(0);
   CHECK(light.ambient == glm::vec3(0.1f, 0.0f, 0.0f));
   CHECK(light.spot_exponent == 2.5f);
 }
 
 TEST_CASE("a pipeline is checked and handed on") {
-  const Scene scene = load(with("pipeline", R"({"width": 320, "light_model": {"shininess": 8}})"));
+  const Scene scene = load_with_plys(with_key("pipeline", R"({"width": 320, "light_model": {"shininess": 8}})"));
   CHECK(pipeline_from_json(scene.pipeline_text, "p", {}).width == 320);
 }
 
@@ -115,62 +117,67 @@ TEST_CASE("bad scenes are refused at their pointer") {
   const std::pair<std::string, std::string> cases[] = {
       {"{}", "s.json: 'version' is missing"},
       {R"({"version": 2})", "s.json: /version: found 2"},
-      {R"({"version": 1, "light": []})", "s.json: /light: this key is unknown (did you mean lights? keys here are version camera"},
-      {with("clear", "[1, 1]"), "s.json: /clear: found an array of 2 (an array of 3 to 4)"},
-      {with("clear", "[1, 1, 1, 2]"), "s.json: /clear/3: found 2 (a number from 0 to 1)"},
-      {with("camera", "{}"), "s.json: /camera: 'eye' is missing"},
-      {with("camera", R"({"eye": [0, 0, 1], "fov_deg": 180})"), "s.json: /camera/fov_deg: found 180"},
-      {with("camera", R"({"eye": [0, 0, 1], "near": 2, "far": 1})"), "s.json: /camera: near is not below far"},
-      {with("camera", R"({"eye": [0, 0, 1], "near": 0})"), "s.json: /camera/near: found 0"},
-      {with("camera", R"({"eye": [0, 0, 1], "clip_from_world": [1], "far": 3})"),
+      {R"({"version": 1, "light": []})",
+       "s.json: /light: this key is unknown (did you mean lights? keys here are version camera"},
+      {with_key("clear", "[1, 1]"), "s.json: /clear: found an array of 2 (an array of 3 to 4)"},
+      {with_key("clear", "[1, 1, 1, 2]"), "s.json: /clear/3: found 2 (a number from 0 to 1)"},
+      {with_key("camera", "{}"), "s.json: /camera: 'eye' is missing"},
+      {with_key("camera", R"({"eye": [0, 0, 1], "fov_deg": 180})"), "s.json: /camera/fov_deg: found 180"},
+      {with_key("camera", R"({"eye": [0, 0, 1], "near": 2, "far": 1})"), "s.json: /camera: near is not below far"},
+      {with_key("camera", R"({"eye": [0, 0, 1], "near": 0})"), "s.json: /camera/near: found 0"},
+      {with_key("camera", R"({"eye": [0, 0, 1], "clip_from_world": [1], "far": 3})"),
        "s.json: /camera/far: this key is unknown"},
-      {with("camera", R"({"eye": [0, 0, 1], "clip_from_world": [1]})"),
+      {with_key("camera", R"({"eye": [0, 0, 1], "clip_from_world": [1]})"),
        "s.json: /camera/clip_from_world: found an array of 1"},
-      {with("camera", R"({"eye": [0, 0, 0]})"), "s.json: camera: eye, target and up leave no direction"},
-      {with("camera", R"({"eye": [0, 9, 0]})"), "s.json: camera: eye, target and up leave no direction"},
-      {with("materials", R"([{"name": "a", "color": [1, 1, 1]}, {"name": "a", "color": [1, 1, 1]}])"),
+      {with_key("camera", R"({"eye": [0, 0, 0]})"), "s.json: camera: eye, target and up leave no direction"},
+      {with_key("camera", R"({"eye": [0, 9, 0]})"), "s.json: camera: eye, target and up leave no direction"},
+      {with_key("materials", R"([{"name": "a", "color": [1, 1, 1]}, {"name": "a", "color": [1, 1, 1]}])"),
        "s.json: /materials/1: a material of this name"},
-      {with("materials", R"([{"name": "a", "color": [1, 1, -1]}])"), "s.json: /materials/0/color/2: found -1"},
-      {with("objects", R"([{}])"), "s.json: /objects/0: an object has 'geometry' or 'mesh'"},
-      {with("objects", R"([{"mesh": "teapot"}])"), "s.json: /objects/0/mesh: found \"teapot\" (one of cube"},
-      {with("objects", R"([{"mesh": "cube", "normals": "flat"}])"), "s.json: /objects/0/normals: a mesh of ours"},
-      {with("objects", R"([{"mesh": "cube", "color": [1, 1, 1], "material": "a"}])"),
+      {with_key("materials", R"([{"name": "a", "color": [1, 1, -1]}])"), "s.json: /materials/0/color/2: found -1"},
+      {with_key("objects", R"([{}])"), "s.json: /objects/0: an object has 'geometry' or 'mesh'"},
+      {with_key("objects", R"([{"mesh": "teapot"}])"), "s.json: /objects/0/mesh: found \"teapot\" (one of cube"},
+      {with_key("objects", R"([{"mesh": "cube", "normals": "flat"}])"), "s.json: /objects/0/normals: a mesh of ours"},
+      {with_key("objects", R"([{"mesh": "cube", "color": [1, 1, 1], "material": "a"}])"),
        "s.json: /objects/0: 'color' and 'material'"},
-      {with("objects", R"([{"mesh": "cube", "material": "a"}])"),
+      {with_key("objects", R"([{"mesh": "cube", "material": "a"}])"),
        "s.json: /objects/0/material: no material has this name"},
-      {with("objects", R"([{"mesh": "cube", "rotation": [0, 0, 0, 1.1]}])"),
+      {with_key("objects", R"([{"mesh": "cube", "rotation": [0, 0, 0, 1.1]}])"),
        "s.json: /objects/0/rotation: the quaternion"},
-      {with("objects", R"([{"mesh": "cube", "rotation": [0, 0, 0, 1], "rotation_deg": [0, 0, 0]}])"),
+      {with_key("objects", R"([{"mesh": "cube", "rotation": [0, 0, 0, 1], "rotation_deg": [0, 0, 0]}])"),
        "s.json: /objects/0: 'rotation' and"},
-      {with("objects", R"([{"geometry": "../t.ply"}])"), "s.json: /objects/0/geometry: the path leaves"},
-      {with("objects", R"([{"geometry": "t.ply\u0000"}])"),
+      {with_key("objects", R"([{"geometry": "../t.ply"}])"), "s.json: /objects/0/geometry: the path leaves"},
+      {with_key("objects", R"([{"geometry": "t.ply\u0000"}])"),
        "s.json: /objects/0/geometry: the path has a control character"},
-      {with("objects", R"([{"geometry": "t.stl"}])"), "s.json: /objects/0/geometry: the ending names no geometry"},
-      {with("objects", R"([{"geometry": "bad.ply"}])"), "bad.ply: line 2: the header has no end"},
-      {with("lights", R"([{"color": [1, 1, 1]}])"), "s.json: /lights/0: 'type' is missing"},
-      {with("lights", R"([{"type": "area"}])"), "s.json: /lights/0/type: found \"area\""},
-      {with("lights", R"([{"type": "ambient", "range": 1}])"), "s.json: /lights/0/range: this key is unknown"},
-      {with("lights", R"([{"type": "point", "position": [0, 0, 0], "range": 0}])"), "s.json: /lights/0/range: found 0"},
-      {with("lights", R"([{"type": "point", "position": [0, 0, 1e19]}])"), "s.json: /lights/0/position/2: found 1e+19"},
-      {with("lights", R"([{"type": "directional", "direction": [0, 0, 0]}])"),
+      {with_key("objects", R"([{"geometry": "t.stl"}])"), "s.json: /objects/0/geometry: the ending names no geometry"},
+      {with_key("objects", R"([{"geometry": "bad.ply"}])"), "bad.ply: line 2: the header has no end"},
+      {with_key("lights", R"([{"color": [1, 1, 1]}])"), "s.json: /lights/0: 'type' is missing"},
+      {with_key("lights", R"([{"type": "area"}])"), "s.json: /lights/0/type: found \"area\""},
+      {with_key("lights", R"([{"type": "ambient", "range": 1}])"), "s.json: /lights/0/range: this key is unknown"},
+      {with_key("lights", R"([{"type": "point", "position": [0, 0, 0], "range": 0}])"),
+       "s.json: /lights/0/range: found 0"},
+      {with_key("lights", R"([{"type": "point", "position": [0, 0, 1e19]}])"),
+       "s.json: /lights/0/position/2: found 1e+19"},
+      {with_key("lights", R"([{"type": "directional", "direction": [0, 0, 0]}])"),
        "s.json: /lights/0/direction: the direction has no length"},
-      {with("lights",
-            R"([{"type": "spot", "position": [0,0,0], "direction": [1,0,0], "cone_deg": 170, "penumbra_deg": 11}])"),
+      {with_key(
+           "lights",
+           R"([{"type": "spot", "position": [0,0,0], "direction": [1,0,0], "cone_deg": 170, "penumbra_deg": 11}])"),
        "s.json: /lights/0: cone_deg and"},
-      {with("lights", R"([{"type": "ring", "count": 0, "radius": 1}])"), "s.json: /lights/0/count: found 0"},
-      {with("lights", R"([{"type": "ring", "count": 3, "radius": 1, "colors": []}])"),
+      {with_key("lights", R"([{"type": "ring", "count": 0, "radius": 1}])"), "s.json: /lights/0/count: found 0"},
+      {with_key("lights", R"([{"type": "ring", "count": 3, "radius": 1, "colors": []}])"),
        "s.json: /lights/0/colors: found an array of 0"},
-      {with("pipeline", R"({"width": -1})"), "s.json: /pipeline/width: found -1"},
-      {with("pipeline", R"({"preset": "x"})"), "s.json: /pipeline/preset: found \"x\""},
+      {with_key("pipeline", R"({"width": -1})"), "s.json: /pipeline/width: found -1"},
+      {with_key("pipeline", R"({"preset": "x"})"), "s.json: /pipeline/preset: found \"x\""},
   };
   for (const auto& [text, start] : cases) {
     INFO(text);
-    CHECK_STARTS_WITH(refusal(text), start);
+    CHECK_STARTS_WITH(scene_refusal(text), start);
   }
-  CHECK_STARTS_WITH(refusal(with("objects", R"([{"geometry": "no.ply"}])"), ErrorKind::io),
+  CHECK_STARTS_WITH(scene_refusal(with_key("objects", R"([{"geometry": "no.ply"}])"), ErrorKind::io),
                     "s.json: /objects/0/geometry: no.ply: No such file");
-  CHECK_STARTS_WITH(refusal(with("lights", R"([{"type": "ring", "count": 1048577, "radius": 1}])"), ErrorKind::limit),
-                    "s.json: /lights/0: the lights are over the limit");
+  CHECK_STARTS_WITH(
+      scene_refusal(with_key("lights", R"([{"type": "ring", "count": 1048577, "radius": 1}])"), ErrorKind::limit),
+      "s.json: /lights/0: the lights are over the limit");
 }
 
 std::string documentation() {
@@ -209,7 +216,7 @@ TEST_CASE("the scenes of the documentation load at every time, every key is in o
     INFO(text);
     collect_keys(json::parse(text, "docs/scenes.md"), shown);
     const ScratchFolder scratch;
-    scratch.write("model.ply", kTriangle);
+    scratch.write("model.ply", kPlyTriangle);
     Scene scene = load_scene(scratch.write("s.json", text));
     for (const double time : {0.0, 0.45, 3.0, 1000.0}) CHECK_NOTHROW(set_time(scene, time));
   }

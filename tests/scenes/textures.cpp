@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "expect_error.h"
+#include "scene_text.h"
 #include "scenes/builtin/texture_pattern.h"
 #include "scenes/scene.h"
 #include "tests/scratch_folder.h"
@@ -20,36 +21,35 @@ Image plain(std::span<const uint8_t> content, const std::string& where, uint64_t
   return image;
 }
 
-std::string picture(int width, int height, uint8_t step) {
+std::string tex_file(int width, int height, uint8_t step) {
   std::string bytes{char(width), char(height)};
   for (int i = 0; i < width * height * 4; ++i) bytes += char(i * step);
   return bytes;
 }
 
-Scene load(const std::string& text, const SceneLimits& limits = {}) {
+Scene load_with_pictures(const std::string& text, const SceneLimits& limits = {}) {
   const ScratchFolder scratch;
-  scratch.write("two.tex", picture(2, 2, 1));
-  scratch.write("one.tex", picture(1, 1, 1));
+  scratch.write("two.tex", tex_file(2, 2, 1));
+  scratch.write("one.tex", tex_file(1, 1, 1));
   std::filesystem::create_directory(scratch.path("folder"));
   return load_scene(scratch.write("s.json", text), limits, plain);
 }
 
-std::string refusal(const std::string& text, ErrorKind kind = ErrorKind::bad_input, const SceneLimits& limits = {}) {
-  const std::string message = error_of(kind, [&] { load(text, limits); });
-  const size_t name = message.find("s.json");
-  return name == std::string::npos ? message : message.substr(name);
+std::string texture_refusal(const std::string& text, ErrorKind kind = ErrorKind::bad_input,
+                            const SceneLimits& limits = {}) {
+  return from_file_name(error_of(kind, [&] { load_with_pictures(text, limits); }));
 }
 
 std::string textures(const std::string& list, const std::string& material = "") {
   return R"({"version": 1, "textures": [)" + list + R"(], "materials": [)" + material + "]}";
 }
-std::string material(const std::string& map) {
+std::string material_mapped(const std::string& map) {
   return R"({"name": "m", "color": [1, 1, 1], "color_map": {"texture": "t")" + map + "}}";
 }
 
 TEST_CASE("a texture's rows start at v = 0, which is a picture's bottom unless it says otherwise") {
-  const Scene lower = load(textures(R"({"name": "t", "file": "two.tex"})"));
-  const Scene upper = load(textures(R"({"name": "t", "file": "two.tex", "origin": "upper_left"})"));
+  const Scene lower = load_with_pictures(textures(R"({"name": "t", "file": "two.tex"})"));
+  const Scene upper = load_with_pictures(textures(R"({"name": "t", "file": "two.tex", "origin": "upper_left"})"));
   REQUIRE(lower.textures.size() == 1);
   CHECK(lower.textures[0].format == TextureFormat::srgb8_a8);
   CHECK(lower.textures[0].levels[0].bytes ==
@@ -68,7 +68,8 @@ TEST_CASE("pictures of 16 bits a channel keep every code, linear or decoded from
   const ScratchFolder scratch;
   scratch.write("p.png", "read by the decoder above");
   for (const bool srgb : {false, true}) {
-    const std::string about = srgb ? R"(, "origin": "upper_left")" : R"(, "origin": "upper_left", "encoding": "linear")";
+    const std::string about =
+        srgb ? R"(, "origin": "upper_left")" : R"(, "origin": "upper_left", "encoding": "linear")";
     const std::string file = scratch.write("s.json", textures(R"({"name": "t", "file": "p.png")" + about + "}"));
     const Texture texture = load_scene(file, {}, every_code).textures.at(0);
     REQUIRE(texture.format == TextureFormat::rgba32f);
@@ -77,7 +78,7 @@ TEST_CASE("pictures of 16 bits a channel keep every code, linear or decoded from
     for (int code = 0; code < 65536; ++code) {
       const std::array<float, 4> texel = texel_value(texture, 0, code % 256, code / 256);
       const long double value = code / 65535.0L;
-      const long double linear = !srgb                ? value
+      const long double linear = !srgb               ? value
                                  : value <= 0.04045L ? value / 12.92L
                                                      : std::pow((value + 0.055L) / 1.055L, 2.4L);  // IEC 61966-2-1
       wrong += texel[0] != float(linear) || texel[3] != float(value);
@@ -94,18 +95,20 @@ TEST_CASE("patterns and levels that are made count against the limit of textures
   SceneLimits limits;
   const std::string pattern = textures(R"({"name": "t", "pattern": {"type": "checker", "size": [16, 16]}})");
   limits.texture_bytes = 16 * 16 * 4;
-  CHECK(load(pattern, limits).textures.size() == 1);
+  CHECK(load_with_pictures(pattern, limits).textures.size() == 1);
   limits.texture_bytes -= 1;
-  CHECK_STARTS_WITH(refusal(pattern, ErrorKind::limit, limits), "s.json: /textures/0/pattern: with its 1024 bytes");
-  const std::string mapped = textures(R"({"name": "t", "pattern": {"type": "checker", "size": [16, 16]}})", material(""));
+  CHECK_STARTS_WITH(texture_refusal(pattern, ErrorKind::limit, limits),
+                    "s.json: /textures/0/pattern: with its 1024 bytes");
+  const std::string mapped =
+      textures(R"({"name": "t", "pattern": {"type": "checker", "size": [16, 16]}})", material_mapped(""));
   limits.texture_bytes = (256 + 64 + 16 + 4 + 1) * 4;
-  CHECK(load(mapped, limits).textures[0].levels.size() == 5);
+  CHECK(load_with_pictures(mapped, limits).textures[0].levels.size() == 5);
   limits.texture_bytes -= 1;
-  CHECK_STARTS_WITH(refusal(mapped, ErrorKind::limit, limits), "s.json: /materials: with its 340 bytes");
+  CHECK_STARTS_WITH(texture_refusal(mapped, ErrorKind::limit, limits), "s.json: /materials: with its 340 bytes");
 }
 
 TEST_CASE("maps say how a texture is read") {
-  const Scene scene = load(textures(R"({"name": "t", "file": "two.tex", "encoding": "linear"})", R"(
+  const Scene scene = load_with_pictures(textures(R"({"name": "t", "file": "two.tex", "encoding": "linear"})", R"(
     {"name": "a", "color": [1, 1, 1], "alpha_cutoff": 0.25, "transparent": true, "normal_scale": -2,
      "color_map": {"texture": "t", "wrap": ["clamp_to_border", "mirrored_repeat"], "mag": "nearest", "min": "linear",
                    "mip": "nearest", "lod_bias": -1.5, "lod_min": 0, "lod_max": 3, "border": [0.5, 0.25, 1, 0.125]},
@@ -130,7 +133,7 @@ TEST_CASE("maps say how a texture is read") {
 }
 
 TEST_CASE("maps say at which coordinates they are read, and materials what glTF's have besides") {
-  const Scene scene = load(textures(R"({"name": "t", "file": "two.tex", "encoding": "linear"})", R"(
+  const Scene scene = load_with_pictures(textures(R"({"name": "t", "file": "two.tex", "encoding": "linear"})", R"(
     {"name": "a", "color": [1, 1, 1], "occlusion_strength": 0.5, "unlit": true, "double_sided": true,
      "emission_map": {"texture": "t", "uv_set": 1, "uv_offset": [1, -2], "uv_rotation_deg": 180, "uv_scale": [3, 4]},
      "metallic_roughness_map": {"texture": "t", "mip": "none"}, "occlusion_map": {"texture": "t"}}, {"name": "b", "color": [1, 1, 1]})"));
@@ -145,7 +148,7 @@ TEST_CASE("maps say at which coordinates they are read, and materials what glTF'
   CHECK(!plain.textured());
   CHECK(scene.textures[0].levels.size() == 2);
   const auto map = [](const std::string& more) {
-    return refusal(textures(R"({"name": "t", "file": "two.tex"})", material(more)));
+    return texture_refusal(textures(R"({"name": "t", "file": "two.tex"})", material_mapped(more)));
   };
   CHECK_STARTS_WITH(map(R"(, "uv_set": 6)"), "s.json: /materials/0/color_map/uv_set: found 6");
   CHECK_STARTS_WITH(map(R"(, "uv_scale": [1])"), "s.json: /materials/0/color_map/uv_scale: found an array of 1");
@@ -153,7 +156,7 @@ TEST_CASE("maps say at which coordinates they are read, and materials what glTF'
 }
 
 TEST_CASE("what glTF's materials have moves the hash of scenes that say it, and of no others") {
-  Scene scene = load(textures(R"({"name": "t", "file": "two.tex"})", material("")));
+  Scene scene = load_with_pictures(textures(R"({"name": "t", "file": "two.tex"})", material_mapped("")));
   const std::string before = scene_hash(scene);
   const auto changed = [&](const auto& change) {
     Scene other = scene;
@@ -180,48 +183,52 @@ TEST_CASE("what glTF's materials have moves the hash of scenes that say it, and 
 }
 
 TEST_CASE("levels come from files or are made where a map reads them") {
-  const Scene given =
-      load(textures(R"({"name": "t", "levels": ["two.tex", "one.tex"], "encoding": "linear"})", material("")));
+  const Scene given = load_with_pictures(
+      textures(R"({"name": "t", "levels": ["two.tex", "one.tex"], "encoding": "linear"})", material_mapped("")));
   REQUIRE(given.textures[0].levels.size() == 2);
   CHECK(given.textures[0].levels[1].bytes == std::vector<uint8_t>{0, 1, 2, 3});
-  const Scene unread = load(textures(R"({"name": "t", "file": "two.tex"})", material(R"(, "mip": "none")")));
+  const Scene unread =
+      load_with_pictures(textures(R"({"name": "t", "file": "two.tex"})", material_mapped(R"(, "mip": "none")")));
   CHECK(unread.textures[0].levels.size() == 1);
 }
 
 TEST_CASE("bad textures are refused with their place") {
-  CHECK_STARTS_WITH(refusal(textures(R"({"name": "t"})")), "s.json: /textures/0: a texture has 'file', 'levels'");
-  CHECK_STARTS_WITH(refusal(textures(R"({"name": "t", "file": "/etc/passwd"})")),
+  CHECK_STARTS_WITH(texture_refusal(textures(R"({"name": "t"})")),
+                    "s.json: /textures/0: a texture has 'file', 'levels'");
+  CHECK_STARTS_WITH(texture_refusal(textures(R"({"name": "t", "file": "/etc/passwd"})")),
                     "s.json: /textures/0/file: the path is absolute");
-  CHECK_STARTS_WITH(refusal(textures(R"({"name": "t", "file": "../two.tex"})")),
+  CHECK_STARTS_WITH(texture_refusal(textures(R"({"name": "t", "file": "../two.tex"})")),
                     "s.json: /textures/0/file: the path leaves the scene's folder");
-  CHECK_STARTS_WITH(refusal(textures(R"({"name": "t", "file": "http://x/two.tex"})")),
+  CHECK_STARTS_WITH(texture_refusal(textures(R"({"name": "t", "file": "http://x/two.tex"})")),
                     "s.json: /textures/0/file: the path has a scheme");
-  CHECK_STARTS_WITH(refusal(textures(R"({"name": "t", "file": "absent.png"})"), ErrorKind::io),
+  CHECK_STARTS_WITH(texture_refusal(textures(R"({"name": "t", "file": "absent.png"})"), ErrorKind::io),
                     "s.json: /textures/0/file: absent.png: No such file");
-  CHECK_STARTS_WITH(refusal(textures(R"({"name": "t", "file": "folder"})")),
+  CHECK_STARTS_WITH(texture_refusal(textures(R"({"name": "t", "file": "folder"})")),
                     "s.json: /textures/0/file: folder: this is no regular file");
-  CHECK_STARTS_WITH(refusal(textures(R"({"name": "t", "levels": ["two.tex", "two.tex"]})")),
+  CHECK_STARTS_WITH(texture_refusal(textures(R"({"name": "t", "levels": ["two.tex", "two.tex"]})")),
                     "s.json: /textures/0/levels/1: the level has the wrong size");
-  CHECK_STARTS_WITH(refusal(textures(R"({"name": "t", "file": "one.tex"}, {"name": "t", "file": "one.tex"})")),
+  CHECK_STARTS_WITH(texture_refusal(textures(R"({"name": "t", "file": "one.tex"}, {"name": "t", "file": "one.tex"})")),
                     "s.json: /textures/1: a texture of this name exists");
-  CHECK_STARTS_WITH(refusal(textures("", material(""))), "s.json: /materials/0/color_map/texture: no texture has");
-  CHECK_STARTS_WITH(
-      refusal(textures(R"({"name": "t", "file": "one.tex"})", material(R"(, "lod_min": 2, "lod_max": 1)"))),
-      "s.json: /materials/0/color_map: lod_min is above lod_max");
-  CHECK_STARTS_WITH(refusal(textures(R"({"name": "t", "pattern": {"type": "checker", "size": [0, 4]}})")),
+  CHECK_STARTS_WITH(texture_refusal(textures("", material_mapped(""))),
+                    "s.json: /materials/0/color_map/texture: no texture has");
+  CHECK_STARTS_WITH(texture_refusal(textures(R"({"name": "t", "file": "one.tex"})",
+                                             material_mapped(R"(, "lod_min": 2, "lod_max": 1)"))),
+                    "s.json: /materials/0/color_map: lod_min is above lod_max");
+  CHECK_STARTS_WITH(texture_refusal(textures(R"({"name": "t", "pattern": {"type": "checker", "size": [0, 4]}})")),
                     "s.json: /textures/0/pattern/size/0");
-  CHECK_STARTS_WITH(refusal(textures(R"({"name": "t", "pattern": {"type": "checker", "size": [16385, 4]}})")),
+  CHECK_STARTS_WITH(texture_refusal(textures(R"({"name": "t", "pattern": {"type": "checker", "size": [16385, 4]}})")),
                     "s.json: /textures/0/pattern/size/0");
-  CHECK_STARTS_WITH(refusal(textures(R"({"name": "t", "file": "one.tex", "wrap": "repeat"})")), "s.json: /textures/0");
+  CHECK_STARTS_WITH(texture_refusal(textures(R"({"name": "t", "file": "one.tex", "wrap": "repeat"})")),
+                    "s.json: /textures/0");
   SceneLimits small;
   small.texture_bytes = 15;
-  CHECK_STARTS_WITH(refusal(textures(R"({"name": "t", "file": "two.tex"})"), ErrorKind::limit, small),
+  CHECK_STARTS_WITH(texture_refusal(textures(R"({"name": "t", "file": "two.tex"})"), ErrorKind::limit, small),
                     "s.json: /textures/0/file: two.tex: too large");
 }
 
 TEST_CASE("without a decoder only patterns are textures") {
   const ScratchFolder scratch;
-  scratch.write("one.tex", picture(1, 1, 1));
+  scratch.write("one.tex", tex_file(1, 1, 1));
   const std::string file = scratch.write("s.json", textures(R"({"name": "t", "file": "one.tex"})"));
   const std::string message = error_of(ErrorKind::bad_input, [&] { load_scene(file); });
   CHECK(message.find("this program reads no image files") != std::string::npos);
@@ -230,13 +237,13 @@ TEST_CASE("without a decoder only patterns are textures") {
       1);
 }
 
-Texture floats(int width, int height, const std::vector<float>& values) {
+Texture float_texture(int width, int height, const std::vector<float>& values) {
   Texture texture{"", TextureFormat::rgba32f, {{width, height, {}}}};
   for (const float v : values) append_texel(texture.format, {v, v, v, 1.0f}, texture.levels[0].bytes);
   return texture;
 }
 
-Scene with(const Texture& texture) {
+Scene scene_with(const Texture& texture) {
   Scene scene;
   scene.spec = "test";
   scene.textures.push_back(texture);
@@ -247,19 +254,19 @@ Scene with(const Texture& texture) {
 }
 
 TEST_CASE("texels that are no colours, sizes that do not fit and samplers out of range are refused") {
-  const Texture good = floats(2, 1, {0.0f, 1.0f});
-  CHECK_NOTHROW(validate(with(good)));
+  const Texture good = float_texture(2, 1, {0.0f, 1.0f});
+  CHECK_NOTHROW(validate(scene_with(good)));
   const float kBad[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1.0f, 2e18f};
   for (const float bad : kBad) {
     INFO(bad);
     CHECK_STARTS_WITH(error_of(ErrorKind::bad_input,
                                [&] {
-                                 validate(with(floats(2, 1, {0.0f, bad})));
+                                 validate(scene_with(float_texture(2, 1, {0.0f, bad})));
                                }),
                       "test: texture 0: a texel is out of range");
   }
   const auto refused = [&](auto&& change) {
-    Scene scene = with(good);
+    Scene scene = scene_with(good);
     change(scene);
     error_of(ErrorKind::bad_input, [&] { validate(scene); });
   };
@@ -278,7 +285,7 @@ TEST_CASE("texels that are no colours, sizes that do not fit and samplers out of
   refused([](Scene& s) { s.materials[0].normal_scale = std::numeric_limits<float>::infinity(); });
   refused([](Scene& s) {  // the product would not stay in the range of colours
     s.materials[0].base_color = glm::vec4(1e18f, 1e18f, 1e18f, 1.0f);
-    s.textures[0] = floats(1, 1, {2.0f});
+    s.textures[0] = float_texture(1, 1, {2.0f});
   });
 }
 
@@ -321,7 +328,7 @@ TEST_CASE("a level of the mip chain is the mean of what its texels cover, whatev
     INFO("width " << n);
     std::vector<float> values;
     for (int i = 0; i < n; ++i) values.push_back(float((i * 7919 + 13) % 1009) / 1009.0f);
-    Texture texture = floats(n, 1, values);
+    Texture texture = float_texture(n, 1, values);
     build_mip_chain(texture);
     for (size_t k = 1; k < texture.levels.size(); ++k) {
       const int above = texture.levels[k - 1].width, width = texture.levels[k].width;
@@ -340,13 +347,13 @@ TEST_CASE("a level of the mip chain is the mean of what its texels cover, whatev
 }
 
 TEST_CASE("a constant texture has constant levels, and a column is a row turned") {
-  Texture flat = floats(13, 7, std::vector<float>(91, 0.37f));
+  Texture flat = float_texture(13, 7, std::vector<float>(91, 0.37f));
   build_mip_chain(flat);
   REQUIRE(flat.levels.size() == 4);
   for (size_t k = 0; k < flat.levels.size(); ++k)
     for (int y = 0; y < flat.levels[k].height; ++y)
       for (int x = 0; x < flat.levels[k].width; ++x) CHECK(texel_value(flat, k, x, y)[0] == 0.37f);
-  Texture row = floats(5, 1, {1, 2, 4, 8, 16}), column = floats(1, 5, {1, 2, 4, 8, 16});
+  Texture row = float_texture(5, 1, {1, 2, 4, 8, 16}), column = float_texture(1, 5, {1, 2, 4, 8, 16});
   build_mip_chain(row), build_mip_chain(column);
   REQUIRE(row.levels.size() == column.levels.size());
   for (size_t k = 0; k < row.levels.size(); ++k) CHECK(row.levels[k].bytes == column.levels[k].bytes);
@@ -390,7 +397,7 @@ TEST_CASE("patterns repeat without a seam and follow their seed") {
     p.seed = 6;
     const Texture other = texture_of(p);
     CHECK(one.levels[0].bytes != other.levels[0].bytes);
-    CHECK_NOTHROW(validate(with(one)));
+    CHECK_NOTHROW(validate(scene_with(one)));
     // Twice the cells over twice the texels, read over the first half: the lattice is the same where it has not
     // wrapped.
     float low = 2.0f, high = -1.0f;
@@ -415,14 +422,14 @@ TEST_CASE("patterns repeat without a seam and follow their seed") {
 }
 
 TEST_CASE("a scene's hash covers texels and samplers, and names none") {
-  const Scene plain_scene = with(floats(2, 1, {0.25f, 0.5f}));
+  const Scene plain_scene = scene_with(float_texture(2, 1, {0.25f, 0.5f}));
   const std::string hash = scene_hash(plain_scene);
   const auto changed = [&](auto&& change) {
     Scene scene = plain_scene;
     change(scene);
     return scene_hash(scene) != hash;
   };
-  CHECK(changed([](Scene& s) { s.textures[0] = floats(2, 1, {0.25f, 0.75f}); }));
+  CHECK(changed([](Scene& s) { s.textures[0] = float_texture(2, 1, {0.25f, 0.75f}); }));
   CHECK(changed([](Scene& s) { s.materials[0].color_map.sampler.lod_bias = 1.0f; }));
   CHECK(changed([](Scene& s) { s.materials[0].color_map.sampler.wrap[1] = Wrap::clamp_to_edge; }));
   CHECK(changed([](Scene& s) { s.materials[0].alpha_cutoff = 0.5f; }));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "expect_error.h"
+#include "scene_text.h"
 #include "scenes/builtin/builtin.h"
 #include "scenes/scene.h"
 #include "tests/scratch_folder.h"
@@ -12,20 +13,15 @@
 namespace trueshade {
 namespace {
 
-Scene load(const std::string& text) {
-  const ScratchFolder scratch;
-  return load_scene(scratch.write("s.json", text));
-}
-
 Scene moved(Scene scene, double time) {
   set_time(scene, time);
   return scene;
 }
 
 Scene one_object(const std::string& keys) {
-  return load(R"({"version": 1, "objects": [{"mesh": "cube", )" + keys + "}]}");
+  return scene_of_text(R"({"version": 1, "objects": [{"mesh": "cube", )" + keys + "}]}");
 }
-Scene one_light(const std::string& keys) { return load(R"({"version": 1, "lights": [{)" + keys + "}]}"); }
+Scene one_light(const std::string& keys) { return scene_of_text(R"({"version": 1, "lights": [{)" + keys + "}]}"); }
 
 glm::vec3 place(const Scene& scene) { return scene.instances[0].world_from_object[3]; }
 
@@ -107,7 +103,7 @@ TEST_CASE("lights change in every value, an intensity multiplying the colour of 
 }
 
 TEST_CASE("cameras move") {
-  const Scene scene = load(R"({"version": 1, "camera": {"target": [0, 0, 0], "fov_axis": "x", "steps": [
+  const Scene scene = scene_of_text(R"({"version": 1, "camera": {"target": [0, 0, 0], "fov_axis": "x", "steps": [
       {"time": 0, "eye": [0, 0, 4], "fov_deg": 40}, {"time": 2, "eye": [4, 0, 4], "fov_deg": 80}]}})");
   const Scene later = moved(scene, 1.0);
   CHECK(later.camera.eye == glm::vec3(2.0f, 0.0f, 4.0f));
@@ -121,7 +117,7 @@ TEST_CASE("a time is a pure function: no frame depends on those before, and mesh
                                            {"time": 1.7, "position": [0, 2, 0], "rotation_deg": [0, 120, 30]}]}],
     "lights": [{"type": "ring", "count": 9, "radius": 3, "turn_s": 6, "noise": 0.4},
                {"type": "box", "count": 20, "from": [-2, 0, -2], "to": [2, 3, 2], "drift": 0.5}]})";
-  Scene scene = load(text);
+  Scene scene = scene_of_text(text);
   CHECK(scene.timeline.fps == 30.0);
   const std::string first = scene_hash(scene);
   const float* vertices = scene.meshes[0].position[0].data();
@@ -131,7 +127,7 @@ TEST_CASE("a time is a pure function: no frame depends on those before, and mesh
   set_time(scene, -0.3);
   set_time(scene, 0.0);
   CHECK(scene_hash(scene) == first);
-  CHECK(scene_hash(moved(load(text), 5.1)) == later);
+  CHECK(scene_hash(moved(scene_of_text(text), 5.1)) == later);
   CHECK(scene.meshes[0].position[0].data() == vertices);
 }
 
@@ -167,9 +163,8 @@ TEST_CASE("the lights of every built-in scene move, and time 0 is the frozen sce
   }
 }
 
-std::string refusal(const std::string& text) {
-  const std::string message = error_of(ErrorKind::bad_input, [&] { load(text); });
-  return message.substr(message.find("s.json"));
+std::string timeline_refusal(const std::string& text) {
+  return from_file_name(error_of(ErrorKind::bad_input, [&] { scene_of_text(text); }));
 }
 
 std::string object(const std::string& keys) { return R"({"version": 1, "objects": [{"mesh": "cube", )" + keys + "}]}"; }
@@ -205,7 +200,7 @@ TEST_CASE("steps that make no sense are refused at their pointer") {
   };
   for (const auto& [text, start] : cases) {
     INFO(text);
-    CHECK_STARTS_WITH(refusal(text), start);
+    CHECK_STARTS_WITH(timeline_refusal(text), start);
   }
 }
 
@@ -214,8 +209,8 @@ TEST_CASE("what only goes wrong later is refused at its time") {
                                                           {"time": 1, "color": [1e18, 0, 0], "intensity": 1e18}])");
   CHECK_STARTS_WITH(error_of(ErrorKind::bad_input, [&] { set_time(bright, 0.5); }),
                     "s.json: time 0.5: light 0: the colour");
-  Scene through =
-      load(R"({"version": 1, "camera": {"steps": [{"time": 0, "eye": [0, 0, 2]}, {"time": 2, "eye": [0, 0, -2]}]}})");
+  Scene through = scene_of_text(
+      R"({"version": 1, "camera": {"steps": [{"time": 0, "eye": [0, 0, 2]}, {"time": 2, "eye": [0, 0, -2]}]}})");
   CHECK_STARTS_WITH(error_of(ErrorKind::bad_input, [&] { set_time(through, 1.0); }),
                     "s.json: time 1: camera: eye, target");
   Scene huge =
@@ -257,9 +252,9 @@ TEST_CASE("random grids stay within what was asked for, and differ by seed") {
   for (const size_t count : used) CHECK((count > 15 && count < 55));
   CHECK(scene_hash(one_object(keys + "1}")) == scene_hash(scene));
   CHECK(scene_hash(one_object(keys + "2}")) != scene_hash(scene));
-  CHECK_STARTS_WITH(
-      refusal(object(R"("color": [1, 1, 1], "grid": {"count": [1, 1, 1], "spacing": 1, "colors": [[1, 1, 1]]})")),
-      "s.json: /objects/0/grid: the object has a colour");
+  CHECK_STARTS_WITH(timeline_refusal(object(
+                        R"("color": [1, 1, 1], "grid": {"count": [1, 1, 1], "spacing": 1, "colors": [[1, 1, 1]]})")),
+                    "s.json: /objects/0/grid: the object has a colour");
   for (const char* count : {"[16777216, 16777216, 16777216]", "[300, 300, 300]", "[16777216, 2, 1]"})
     error_of(ErrorKind::limit,
              [&] { one_object(std::string(R"("grid": {"count": )") + count + R"(, "spacing": 1})"); });

@@ -8,51 +8,61 @@ namespace trueshade {
 namespace {
 
 template <typename Change>
-std::string invalid(const Change& change, ErrorKind kind = ErrorKind::bad_input, const SceneLimits& limits = {}) {
+std::string invalid_scene(const Change& change, ErrorKind kind = ErrorKind::bad_input, const SceneLimits& limits = {}) {
   Scene scene = builtin_scene("cornell");
   change(scene);
   return error_of(kind, [&] { validate(scene, limits); });
 }
 
 TEST_CASE("scenes out of range are refused with the part's name") {
-  CHECK_STARTS_WITH(invalid([](Scene& s) { s.meshes[1].position[2][5] = NAN; }), "builtin:cornell: mesh 1: position");
-  CHECK_STARTS_WITH(invalid([](Scene& s) { s.meshes[1].normal[0].pop_back(); }),
+  CHECK_STARTS_WITH(invalid_scene([](Scene& s) { s.meshes[1].position[2][5] = NAN; }),
+                    "builtin:cornell: mesh 1: position");
+  CHECK_STARTS_WITH(invalid_scene([](Scene& s) { s.meshes[1].normal[0].pop_back(); }),
                     "builtin:cornell: mesh 1: normal streams differ");
-  CHECK_STARTS_WITH(invalid([](Scene& s) { s.meshes[0].indices[4] = 225; }), "builtin:cornell: mesh 0: index 225");
-  CHECK_STARTS_WITH(invalid([](Scene& s) { s.meshes[0].indices.pop_back(); }),
+  CHECK_STARTS_WITH(invalid_scene([](Scene& s) { s.meshes[0].indices[4] = 225; }),
+                    "builtin:cornell: mesh 0: index 225");
+  CHECK_STARTS_WITH(invalid_scene([](Scene& s) { s.meshes[0].indices.pop_back(); }),
                     "builtin:cornell: mesh 0: the number of indices");
-  CHECK_STARTS_WITH(invalid([](Scene& s) { s.instances[3].mesh = 2; }), "builtin:cornell: instance 3: the mesh index");
-  CHECK_STARTS_WITH(invalid([](Scene& s) { s.instances[3].world_from_object[1].y = INFINITY; }),
+  CHECK_STARTS_WITH(invalid_scene([](Scene& s) { s.instances[3].mesh = 2; }),
+                    "builtin:cornell: instance 3: the mesh index");
+  CHECK_STARTS_WITH(invalid_scene([](Scene& s) { s.instances[3].world_from_object[1].y = INFINITY; }),
                     "builtin:cornell: instance 3: the transform");
-  CHECK_STARTS_WITH(invalid([](Scene& s) {
+  CHECK_STARTS_WITH(invalid_scene([](Scene& s) {
                       s.meshes[s.instances[3].mesh].position[1][0] = 1e12f,
                       s.instances[3].world_from_object[1].y = 1e7f;
                     }),
                     "builtin:cornell: instance 3: the transform takes vertices beyond 1e18");
-  CHECK_STARTS_WITH(invalid([](Scene& s) { s.materials[2].base_color.x = -1.0f; }), "builtin:cornell: material 2");
-  CHECK_STARTS_WITH(invalid([](Scene& s) { s.materials[2].shininess = 1.5f; }),
+  CHECK_STARTS_WITH(invalid_scene([](Scene& s) { s.materials[2].base_color.x = -1.0f; }),
+                    "builtin:cornell: material 2");
+  CHECK_STARTS_WITH(invalid_scene([](Scene& s) { s.materials[2].shininess = 1.5f; }),
                     "builtin:cornell: material 2: the shini");
-  CHECK_STARTS_WITH(invalid([](Scene& s) { s.materials[2].emission.x = NAN; }),
+  CHECK_STARTS_WITH(invalid_scene([](Scene& s) { s.materials[2].emission.x = NAN; }),
                     "builtin:cornell: material 2: the emis");
-  CHECK_STARTS_WITH(invalid([](Scene& s) { s.materials[2].roughness = -0.1f; }),
+  CHECK_STARTS_WITH(invalid_scene([](Scene& s) { s.materials[2].roughness = -0.1f; }),
                     "builtin:cornell: material 2: roughness");
-  CHECK_STARTS_WITH(invalid([](Scene& s) { s.lights[7].ambient.y = INFINITY; }),
+  CHECK_STARTS_WITH(invalid_scene([](Scene& s) { s.lights[7].ambient.y = INFINITY; }),
                     "builtin:cornell: light 7: the ambient");
-  CHECK_STARTS_WITH(invalid([](Scene& s) { s.lights[7].type = LightType::spot, s.lights[7].spot_exponent = NAN; }),
-                    "builtin:cornell: light 7: the spot exponent");
-  CHECK_STARTS_WITH(invalid([](Scene& s) { s.lights[7].color.z = 2e18f; }), "builtin:cornell: light 7: the colour");
-  CHECK_STARTS_WITH(invalid([](Scene& s) { s.lights[7].range = 0.0f; }), "builtin:cornell: light 7: the range");
-  CHECK_STARTS_WITH(invalid([](Scene& s) {
+  CHECK_STARTS_WITH(
+      invalid_scene([](Scene& s) { s.lights[7].type = LightType::spot, s.lights[7].spot_exponent = NAN; }),
+      "builtin:cornell: light 7: the spot exponent");
+  CHECK_STARTS_WITH(invalid_scene([](Scene& s) { s.lights[7].color.z = 2e18f; }),
+                    "builtin:cornell: light 7: the colour");
+  CHECK_STARTS_WITH(invalid_scene([](Scene& s) { s.lights[7].range = 0.0f; }), "builtin:cornell: light 7: the range");
+  CHECK_STARTS_WITH(invalid_scene([](Scene& s) {
                       s.lights[7].type = LightType::spot, s.lights[7].direction = {1, 1, 0};
                     }),
                     "builtin:cornell: light 7: the direction");
-  CHECK_STARTS_WITH(invalid([](Scene& s) { s.camera.fov_y_rad = 3.15f; }),
+  CHECK_STARTS_WITH(invalid_scene([](Scene& s) { s.camera.fov_y_rad = 3.15f; }),
                     "builtin:cornell: camera: the field of view");
-  CHECK_STARTS_WITH(invalid([](Scene& s) { s.camera.up = {0, 0, 2}; }), "builtin:cornell: camera: eye, target and up");
-  CHECK_STARTS_WITH(invalid([](Scene& s) { s.clear.w = 1.5f; }), "builtin:cornell: clear");
+  CHECK_STARTS_WITH(invalid_scene([](Scene& s) {
+                      s.camera.up = {0, 0, 2};
+                    }),
+                    "builtin:cornell: camera: eye, target and up");
+  CHECK_STARTS_WITH(invalid_scene([](Scene& s) { s.clear.w = 1.5f; }), "builtin:cornell: clear");
   SceneLimits limits;
   limits.lights = 11;
-  CHECK_STARTS_WITH(invalid([](Scene&) {}, ErrorKind::limit, limits), "builtin:cornell: 12 lights are over the limit");
+  CHECK_STARTS_WITH(invalid_scene([](Scene&) {}, ErrorKind::limit, limits),
+                    "builtin:cornell: 12 lights are over the limit");
 }
 
 TEST_CASE("the scene hash follows every value and no name") {

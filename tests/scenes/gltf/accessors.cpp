@@ -8,7 +8,6 @@ namespace trueshade {
 namespace {
 
 const std::string kQuantized = R"("extensionsUsed": ["KHR_mesh_quantization"], )";
-const std::vector<float> kTriangle{0, 0, 0, 1, 0, 0, 0, 1, 0};
 
 std::string positions(int accessor, const std::string& more = "") {
   return R"("attributes": {"POSITION": )" + std::to_string(accessor) + more + "}";
@@ -16,7 +15,7 @@ std::string positions(int accessor, const std::string& more = "") {
 
 /// The positions that a triangle of values of a type has.
 template <typename T>
-std::vector<float> loaded(const std::vector<T>& values, bool normalized) {
+std::vector<float> loaded_positions(const std::vector<T>& values, bool normalized) {
   Asset asset;
   asset.accessor(values, "VEC3", normalized ? R"("normalized": true)" : "");
   const Scene scene = load_gltf(asset.gltf(kQuantized + one_primitive(positions(0))));
@@ -35,7 +34,7 @@ void check_all_codes() {
   while (codes.size() % 9 != 0) codes.push_back(T(1));
   for (size_t i = 0; i < codes.size(); i += sizeof(T) == 1 ? 9 : 9 * 97) {
     const std::vector<T> nine(codes.begin() + ptrdiff_t(i), codes.begin() + ptrdiff_t(i + 9));
-    const std::vector<float> plain = loaded(nine, false), normalized = loaded(nine, true);
+    const std::vector<float> plain = loaded_positions(nine, false), normalized = loaded_positions(nine, true);
     for (size_t k = 0; k < 9; ++k) {
       REQUIRE(plain[k] == float(nine[k]));
       REQUIRE(normalized[k] == float(std::max(double(nine[k]) / double(most), -1.0)));
@@ -49,7 +48,7 @@ TEST_CASE("integers of every component type are read, normalized and not") {
   check_all_codes<int16_t>();
   check_all_codes<uint16_t>();
   const std::vector<float> floats{0, -0.0f, 1e-40f, 1.5f, -1e15f, 3, 4, 5, 0.1f};
-  CHECK(loaded(floats, false) == floats);
+  CHECK(loaded_positions(floats, false) == floats);
 }
 
 TEST_CASE("indices of every width draw the same") {

@@ -77,6 +77,9 @@ Scene load_gltf(const std::string& content, const SceneLimits& limits = {}, cons
 std::string gltf_refusal(const std::string& content, ErrorKind kind = ErrorKind::bad_input,
                          const SceneLimits& limits = {}, const std::string& ending = ".gltf");
 
+/// The positions of a triangle.
+inline const std::vector<float> kTriangle{0, 0, 0, 1, 0, 0, 0, 1, 0};
+
 /// A scene with one node that draws a mesh of one primitive. `primitive` is JSON of the primitive's members.
 inline std::string one_primitive(const std::string& primitive, const std::string& node = "",
                                  const std::string& more = "") {
@@ -86,5 +89,10 @@ inline std::string one_primitive(const std::string& primitive, const std::string
 
 /// A decoder of pictures: behind PNG's first 8 bytes stand width and height, a byte each, and RGBA codes.
 Image decode_plain(std::span<const uint8_t> content, const std::string& where, uint64_t most_bytes);
+
+/// A picture of decode_plain(): PNG's first bytes, the sides, and one texel that fills it.
+inline std::string plain_picture(int width, int height, const char* texel = "\x10\x20\x30\x40") {
+  return std::string("\x89PNG\r\n\x1a\n") + char(width) + char(height) + texel;
+}
 
 }  // namespace trueshade

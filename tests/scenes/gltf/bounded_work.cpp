@@ -133,7 +133,7 @@ struct ScopedMemoryCap {
 
 TEST_CASE("instances of nodes times primitives are counted before the first is made") {
   Asset asset;
-  asset.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  asset.accessor(kTriangle, "VEC3");
   const auto text = [&](size_t nodes) {
     return asset.gltf(R"("meshes": [{"primitives": [)" + repeated(R"({"attributes": {"POSITION": 0}})", 300) +
                       R"(]}], "nodes": [)" + repeated(R"({"mesh": 0})", nodes) + "]");
@@ -189,7 +189,7 @@ TEST_CASE("what all primitives read is added up before the first is read") {
 
 TEST_CASE("pictures are looked for before copies are made") {
   Asset asset;
-  asset.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  asset.accessor(kTriangle, "VEC3");
   asset.accessor(zeros(3000000, "VEC3"));
   const std::string text =
       asset.gltf(one_primitive(R"("attributes": {"POSITION": 0})",
@@ -200,7 +200,7 @@ TEST_CASE("pictures are looked for before copies are made") {
 
 TEST_CASE("headers of all pictures are read before the first is decoded, and images of one view are one picture") {
   Asset asset;
-  asset.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  asset.accessor(kTriangle, "VEC3");
   asset.accessor(std::vector<float>{0, 0, 1, 0, 0, 1}, "VEC2");
   const std::string magic = "\x89PNG\r\n\x1a\n", whole = magic + "\2\2abcd";
   const auto view = [&](const std::string& bytes) {
@@ -237,7 +237,7 @@ TEST_CASE("headers of all pictures are read before the first is decoded, and ima
 
 TEST_CASE("broken geometry is named before broken pictures, and few pictures are decoded beside it") {
   Asset asset;
-  asset.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  asset.accessor(kTriangle, "VEC3");
   asset.accessor(std::vector<float>{0, 0, 1, 0, 0, 1}, "VEC2");
   asset.accessor(std::vector<uint16_t>{0, 1, 2}, "SCALAR");
   asset.accessor(std::vector<uint16_t>{0, 1, 7}, "SCALAR");  // there is no vertex 7
@@ -331,7 +331,7 @@ TEST_CASE("a primitive that uses few vertices of a large accessor keeps these, i
 TEST_CASE("channels that share a sampler read it once") {
   constexpr size_t kSteps = 20000, kNodes = 50;
   Asset asset;
-  asset.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  asset.accessor(kTriangle, "VEC3");
   asset.accessor(zeros(kSteps, "SCALAR"));
   asset.accessor(zeros(kSteps, "VEC3"));
   const auto text = [&](const std::string& path, const std::string& output) {

@@ -11,7 +11,7 @@ namespace {
 /// A triangle and three cameras; `Walk` moves it along x and a camera along y, `Jump` it along y, `Turn` it along x.
 std::string file() {
   Asset asset;
-  asset.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  asset.accessor(kTriangle, "VEC3");
   asset.accessor(std::vector<float>{0, 2}, "SCALAR", R"("min": [0], "max": [2])");
   asset.accessor(std::vector<float>{0, 0, 0, 4, 0, 0}, "VEC3");
   asset.accessor(std::vector<float>{1, 1, 1, 3, 1, 1}, "VEC3");

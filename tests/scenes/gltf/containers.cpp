@@ -52,7 +52,7 @@ TEST_CASE("a broken container is refused with the byte where it breaks") {
 
 TEST_CASE("every prefix of a .glb file is refused") {
   Asset asset;
-  asset.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  asset.accessor(kTriangle, "VEC3");
   const std::string file = asset.glb(one_primitive(R"("attributes": {"POSITION": 0})"));
   CHECK(load_gltf(file, {}, ".glb").triangle_count() == 1);
   for (size_t bytes = 0; bytes < file.size(); ++bytes) glb_refusal(file.substr(0, bytes));
@@ -117,7 +117,7 @@ TEST_CASE("required extensions that are not implemented are refused by name, oth
 
 TEST_CASE("buffers come from data URIs, files and the chunk BIN, and must be whole") {
   Asset asset;
-  asset.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  asset.accessor(kTriangle, "VEC3");
   const std::string rest = one_primitive(R"("attributes": {"POSITION": 0})");
   const std::string expected = scene_hash(load_gltf(asset.gltf(rest)));
   CHECK(scene_hash(load_gltf(asset.glb(rest), {}, ".glb")) == expected);

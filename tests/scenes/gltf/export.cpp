@@ -262,7 +262,7 @@ TEST_CASE("export: an empty scene is a file, and loads") {
 std::string json_of(const std::vector<uint8_t>& glb) { return std::string(gltf::container_of(glb, "a.glb").json); }
 
 /// The document of a small scene, its buffer aside, with a text replaced.
-std::string replaced(std::string_view from, std::string_view to) {
+std::string altered_document(std::string_view from, std::string_view to) {
   Scene scene = builtin_scene("cornell");
   std::string text = json_of(glb_of_scene(scene, stored_picture).bytes);
   const size_t at = text.find(from);
@@ -288,31 +288,35 @@ std::vector<uint8_t> glb_of_json(std::string text) {
   return out;
 }
 
-std::string refusal(std::string_view from, std::string_view to) {
+std::string altered_glb_refusal(std::string_view from, std::string_view to) {
   return error_of(ErrorKind::bad_input,
-                  [&] { scene_from_gltf(glb_of_json(replaced(from, to)), "a.glb", {}, loaded_picture); });
+                  [&] { scene_from_gltf(glb_of_json(altered_document(from, to)), "a.glb", {}, loaded_picture); });
 }
 
 TEST_CASE("export: extras.trueshade is read strictly") {
   CHECK_NOTHROW(
-      scene_from_gltf(glb_of_json(replaced("\"version\":1,", "\"version\":1,")), "a.glb", {}, loaded_picture));
-  CHECK_STARTS_WITH(refusal("\"version\":1,", "\"version\":1,\"new\":1,"),
+      scene_from_gltf(glb_of_json(altered_document("\"version\":1,", "\"version\":1,")), "a.glb", {}, loaded_picture));
+  CHECK_STARTS_WITH(altered_glb_refusal("\"version\":1,", "\"version\":1,\"new\":1,"),
                     "a.glb: /extras/trueshade/new: this key is unknown");
-  CHECK_STARTS_WITH(refusal("\"version\":1,", "\"version\":2,"), "a.glb: /extras/trueshade/version: the version is 2");
-  CHECK_STARTS_WITH(refusal("\"version\":1,", ""), "a.glb: /extras/trueshade/version: the version is 0");
-  CHECK_STARTS_WITH(refusal("\"camera\":{\"eye\"", "\"camera\":{\"lens\":1,\"eye\""),
+  CHECK_STARTS_WITH(altered_glb_refusal("\"version\":1,", "\"version\":2,"),
+                    "a.glb: /extras/trueshade/version: the version is 2");
+  CHECK_STARTS_WITH(altered_glb_refusal("\"version\":1,", ""), "a.glb: /extras/trueshade/version: the version is 0");
+  CHECK_STARTS_WITH(altered_glb_refusal("\"camera\":{\"eye\"", "\"camera\":{\"lens\":1,\"eye\""),
                     "a.glb: /extras/trueshade/camera/lens: this key is unknown");
-  CHECK_STARTS_WITH(refusal("\"camera\":{\"eye\":[", "\"camera\":{\"eye\":[0,"),
+  CHECK_STARTS_WITH(altered_glb_refusal("\"camera\":{\"eye\":[", "\"camera\":{\"eye\":[0,"),
                     "a.glb: /extras/trueshade/camera/eye: ");
-  CHECK_STARTS_WITH(refusal("\"mesh_count\":", "\"mesh_count\":9"), "a.glb: /extras/trueshade/meshes: there are ");
-  CHECK_STARTS_WITH(refusal("\"instances\":[", "\"instances\":[77,"),
+  CHECK_STARTS_WITH(altered_glb_refusal("\"mesh_count\":", "\"mesh_count\":9"),
+                    "a.glb: /extras/trueshade/meshes: there are ");
+  CHECK_STARTS_WITH(altered_glb_refusal("\"instances\":[", "\"instances\":[77,"),
                     "a.glb: /extras/trueshade/instances: the number of indices is odd");
-  CHECK_STARTS_WITH(refusal("\"instances\":[0,0", "\"instances\":[77,0"),
+  CHECK_STARTS_WITH(altered_glb_refusal("\"instances\":[0,0", "\"instances\":[77,0"),
                     "a.glb: /extras/trueshade/instances: there is no mesh 77");
-  CHECK_STARTS_WITH(refusal("\"meshes\":[0", "\"meshes\":[99"), "a.glb: /extras/trueshade/meshes: there is no mesh 99");
-  CHECK_STARTS_WITH(refusal("\"hierarchy\":{}", "\"hierarchy\":{\"node_lights\":[{\"light\":0,\"node\":3}]}"),
-                    "a.glb: /extras/trueshade: there is no node 3");
-  CHECK_STARTS_WITH(refusal("\"hierarchy\":{}", "\"hierarchy\":{},\"pipeline\":{\"widht\":3}"),
+  CHECK_STARTS_WITH(altered_glb_refusal("\"meshes\":[0", "\"meshes\":[99"),
+                    "a.glb: /extras/trueshade/meshes: there is no mesh 99");
+  CHECK_STARTS_WITH(
+      altered_glb_refusal("\"hierarchy\":{}", "\"hierarchy\":{\"node_lights\":[{\"light\":0,\"node\":3}]}"),
+      "a.glb: /extras/trueshade: there is no node 3");
+  CHECK_STARTS_WITH(altered_glb_refusal("\"hierarchy\":{}", "\"hierarchy\":{},\"pipeline\":{\"widht\":3}"),
                     "a.glb: /extras/trueshade/pipeline: ");
 }
 
@@ -323,8 +327,8 @@ TEST_CASE("export: lists of extras.trueshade take no memory beyond the limit") {
   limits.geometry_bytes = 1 << 20;
   CHECK_STARTS_WITH(error_of(ErrorKind::limit,
                              [&] {
-                               const std::string json =
-                                   replaced("\"hierarchy\":{}", "\"hierarchy\":{\"nodes\":[" + many.substr(13) + "]}");
+                               const std::string json = altered_document(
+                                   "\"hierarchy\":{}", "\"hierarchy\":{\"nodes\":[" + many.substr(13) + "]}");
                                scene_from_gltf(glb_of_json(json), "a.glb", limits, loaded_picture);
                              }),
                     "a.glb: /extras/trueshade/hierarchy/nodes: the list is over the limit of memory");
@@ -333,13 +337,14 @@ TEST_CASE("export: lists of extras.trueshade take no memory beyond the limit") {
 TEST_CASE("export: extras of others are passed over") {
   for (const char* extras :
        {"\"extras\":{\"other\"", "\"extras\":[1,2],\"was\":{\"other\"", "\"extras\":3,\"was\":{\"other\""})
-    CHECK(scene_from_gltf(glb_of_json(replaced("\"extras\":{\"trueshade\"", extras)), "a.glb", {}, loaded_picture)
-              .photometric);
+    CHECK(
+        scene_from_gltf(glb_of_json(altered_document("\"extras\":{\"trueshade\"", extras)), "a.glb", {}, loaded_picture)
+            .photometric);
 }
 
 TEST_CASE("export: lights that were changed for other programs, and not in extras.trueshade, are told of") {
   const auto notes = [](std::string_view from, std::string_view to) {
-    return scene_from_gltf(glb_of_json(replaced(from, to)), "a.glb", {}, loaded_picture).notes;
+    return scene_from_gltf(glb_of_json(altered_document(from, to)), "a.glb", {}, loaded_picture).notes;
   };
   CHECK(notes("\"version\":1,", "\"version\":1,").empty());
   const std::vector<std::string> brighter = notes("\"intensity\":", "\"intensity\":9");
@@ -376,7 +381,7 @@ TEST_CASE("export: a scene file loads as the same scene") {
 /// A triangle, a light and a camera on nodes that move and turn.
 std::string animated() {
   Asset asset;
-  asset.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  asset.accessor(kTriangle, "VEC3");
   asset.accessor(std::vector<float>{0, 1, 3}, "SCALAR", R"("min": [0], "max": [3])");
   asset.accessor(std::vector<float>{0, 0, 0, 1, 2, 3, -1, 0, 1}, "VEC3");
   asset.accessor(std::vector<float>{0, 0, 0, 1, 0, 0.6f, 0, 0.8f, 0.8f, 0, 0, 0.6f}, "VEC4");

@@ -6,8 +6,6 @@
 namespace trueshade {
 namespace {
 
-const std::vector<float> kTriangle{0, 0, 0, 1, 0, 0, 0, 1, 0};
-
 /// A strip's worth of vertices in two rows.
 Asset rows(int vertices) {
   Asset asset;

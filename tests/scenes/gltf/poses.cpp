@@ -8,7 +8,6 @@
 namespace trueshade {
 namespace {
 
-const std::vector<float> kTriangle{0, 0, 0, 1, 0, 0, 0, 1, 0};
 const float kHalf = float(std::sqrt(0.5));
 
 glm::vec3 vertex(const Scene& scene, size_t mesh, size_t v) {

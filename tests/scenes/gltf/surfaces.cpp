@@ -6,11 +6,6 @@
 namespace trueshade {
 namespace {
 
-/// A picture of decode_plain(): PNG's first bytes, the sides, and one texel that fills it.
-std::string picture(int width, int height, const char* texel = "\x10\x20\x30\x40") {
-  return std::string("\x89PNG\r\n\x1a\n") + char(width) + char(height) + texel;
-}
-
 std::string data_uri(const std::string& bytes, const std::string& type = "image/png") {
   return "data:" + type + ";base64," + base64(bytes);
 }
@@ -18,7 +13,7 @@ std::string data_uri(const std::string& bytes, const std::string& type = "image/
 /// A triangle with two sets of texture coordinates and a material, whose JSON this is, and further lists.
 std::string textured(const std::string& material, const std::string& more) {
   Asset asset;
-  asset.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  asset.accessor(kTriangle, "VEC3");
   asset.accessor(std::vector<float>{0, 0, 1, 0, 0, 1}, "VEC2");
   return asset.gltf(one_primitive(R"("attributes": {"POSITION": 0, "TEXCOORD_0": 1, "TEXCOORD_1": 1}, "material": 0)",
                                   "", R"("materials": [{)" + material + "}]" + (more.empty() ? "" : ", " + more)));
@@ -28,7 +23,7 @@ std::string one_image(const std::string& members) {
   return R"("textures": [{"source": 0}], "images": [{)" + members + "}]";
 }
 const std::string kColorMap = R"("pbrMetallicRoughness": {"baseColorTexture": {"index": 0}})";
-const std::string kGoodImage = R"("uri": ")" + data_uri(picture(2, 1)) + '"';
+const std::string kGoodImage = R"("uri": ")" + data_uri(plain_picture(2, 1)) + '"';
 
 TEST_CASE("materials keep what the format says, and its defaults") {
   const Material plain = load_gltf(textured("", "")).materials.at(0);
@@ -68,7 +63,7 @@ TEST_CASE("materials keep what the format says, and its defaults") {
 
 TEST_CASE("maps know their texture, format, sampler, set and transform") {
   const std::string lists =
-      R"("images": [{)" + kGoodImage + R"(}, {"uri": ")" + data_uri(picture(2, 1, "abcd")) + R"("}],
+      R"("images": [{)" + kGoodImage + R"(}, {"uri": ")" + data_uri(plain_picture(2, 1, "abcd")) + R"("}],
     "samplers": [{"magFilter": 9728, "minFilter": 9985, "wrapS": 33071, "wrapT": 33648}, {"minFilter": 9729}],
     "textures": [{"source": 0, "sampler": 0}, {"source": 1, "sampler": 1}, {"source": 1}])";
   const Scene scene = load_gltf(textured(
@@ -119,12 +114,12 @@ TEST_CASE("rows of pictures run from the top, where v is 0") {
 TEST_CASE("pictures come from files, views and data URIs alike") {
   const std::string expected = scene_hash(load_gltf(textured(kColorMap, one_image(kGoodImage))));
   const ScratchFolder scratch;
-  scratch.write("sub/p.png", picture(2, 1));
+  scratch.write("sub/p.png", plain_picture(2, 1));
   CHECK(scene_hash(load_scene(scratch.write("s.gltf", textured(kColorMap, one_image(R"("uri": "sub/p.png")"))), {},
                               decode_plain)) == expected);
   Asset asset;
-  const std::string bytes = picture(2, 1);
-  asset.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  const std::string bytes = plain_picture(2, 1);
+  asset.accessor(kTriangle, "VEC3");
   asset.accessor(std::vector<float>{0, 0, 1, 0, 0, 1}, "VEC2");
   const int view = asset.view(std::vector<char>(bytes.begin(), bytes.end()));
   const std::string rest =
@@ -144,7 +139,7 @@ TEST_CASE("a media type that is not what the picture is is told, by the image") 
   CHECK(notes(one_image(kGoodImage + R"(, "mimeType": "image/png")")).empty());
   const std::string told = "the media type of /images/0 is image/jpeg, and its picture is PNG, which is read";
   CHECK(notes(one_image(kGoodImage + R"(, "mimeType": "image/jpeg")")) == told);
-  const std::string of_uri = R"("uri": ")" + data_uri(picture(2, 1), "image/jpeg") + '"';
+  const std::string of_uri = R"("uri": ")" + data_uri(plain_picture(2, 1), "image/jpeg") + '"';
   CHECK(notes(one_image(of_uri)) == told);
   const std::string two = R"(, "normalTexture": {"index": 1})";
   CHECK(load_gltf(textured(kColorMap + two, R"("textures": [{"source": 0}, {"source": 1}], "images": [{)" + of_uri +
@@ -184,11 +179,11 @@ TEST_CASE("pictures that are neither PNG nor JPEG are refused by name") {
             .textures.empty());
   SceneLimits limits;
   limits.texture_bytes = 20;
-  const std::string small = textured(kColorMap, one_image(R"("uri": ")" + data_uri(picture(3, 1)) + '"'));
+  const std::string small = textured(kColorMap, one_image(R"("uri": ")" + data_uri(plain_picture(3, 1)) + '"'));
   CHECK(load_gltf(small, limits).textures.size() == 1);
   limits.texture_bytes = 15;  // with the levels below the first, 16 are needed
   CHECK_STARTS_WITH(gltf_refusal(small, ErrorKind::limit, limits), ": /images/0: too large");
-  const std::string narrow = textured(kColorMap, one_image(R"("uri": ")" + data_uri(picture(40, 1)) + '"'));
+  const std::string narrow = textured(kColorMap, one_image(R"("uri": ")" + data_uri(plain_picture(40, 1)) + '"'));
   limits.texture_bytes = 312;  // 40 + 20 + 10 + 5 + 2 + 1 texels
   CHECK(load_gltf(narrow, limits).textures.size() == 1);
   limits.texture_bytes = 311;
@@ -259,7 +254,7 @@ TEST_CASE("extensions of materials that are not read leave the base material, an
 
 TEST_CASE("variants of materials leave the material that the primitive names itself") {
   Asset asset;
-  asset.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  asset.accessor(kTriangle, "VEC3");
   const std::string lists = R"("materials": [{"name": "own"}, {"name": "other"}])";
   const auto with = [&](const std::string& primitive, const std::string& more) {
     return load_gltf(

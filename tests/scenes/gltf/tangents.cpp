@@ -12,10 +12,8 @@ namespace {
 using Floats = std::vector<float>;
 using Four = std::array<float, 4>;
 
-const Floats kCorners{0, 0, 0, 1, 0, 0, 0, 1, 0}, kNormals{0, 0, 1, 0, 0, 1, 0, 0, 1}, kUv{0, 1, 1, 1, 0, 0};
+const Floats kNormals{0, 0, 1, 0, 0, 1, 0, 0, 1}, kUv{0, 1, 1, 1, 0, 0};
 const Floats kTangents{1, 0, 0, 1, 0.5f, 0.25f, 0, -0.3f, 0, 2, 0, 0};
-
-std::string picture() { return base64(std::string("\x89PNG\r\n\x1a\n\x01\x01") + "aaaa"); }
 
 /// Lists of a triangle's document behind its buffer: `attributes` are JSON, accessors 0 to 3 are positions, normals,
 /// texture coordinates and tangents.
@@ -24,12 +22,13 @@ std::string lists(const std::string& attributes, const std::string& material, co
   return R"("scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0)" + more +
          R"(}], "meshes": [{"primitives": [{"attributes": {)" + attributes + R"(}, "material": 0)" + primitive_more +
          R"(}]}], "materials": [{)" + material +
-         R"(}], "textures": [{"source": 0}], "images": [{"uri": "data:image/png;base64,)" + picture() + R"("}])";
+         R"(}], "textures": [{"source": 0}], "images": [{"uri": "data:image/png;base64,)" +
+         base64(plain_picture(1, 1, "aaaa")) + R"("}])";
 }
 
 Asset triangle() {
   Asset asset;
-  asset.accessor(kCorners, "VEC3"), asset.accessor(kNormals, "VEC3"), asset.accessor(kUv, "VEC2");
+  asset.accessor(kTriangle, "VEC3"), asset.accessor(kNormals, "VEC3"), asset.accessor(kUv, "VEC2");
   asset.accessor(kTangents, "VEC4");
   return asset;
 }
@@ -38,26 +37,20 @@ const std::string kAll = R"("POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2, "TANGEN
 const std::string kWithout = R"("POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2)";
 const std::string kBumps = R"("normalTexture": {"index": 0})";
 
-Scene loaded(const std::string& document) {
-  const ScratchFolder folder;
-  folder.write("a.gltf", document);
-  return load_scene(folder.path("a.gltf"), {}, decode_plain);
-}
-
 Four tangent(const Mesh& mesh, size_t v) {
   return {mesh.tangent[0][v], mesh.tangent[1][v], mesh.tangent[2][v], mesh.tangent[3][v]};
 }
 
 TEST_CASE("tangents of a file are read where a normal map is, and of their w the sign") {
-  const Scene scene = loaded(triangle().gltf(lists(kAll, kBumps)));
+  const Scene scene = load_gltf(triangle().gltf(lists(kAll, kBumps)));
   const Mesh& mesh = scene.meshes.at(0);
   REQUIRE(mesh.has_tangents());
   CHECK(tangent(mesh, 0) == Four{1, 0, 0, 1});
   CHECK(tangent(mesh, 1) == Four{0.5f, 0.25f, 0, -1});
   CHECK(tangent(mesh, 2) == Four{0, 2, 0, 1});
-  const Scene level = loaded(triangle().gltf(lists(kAll, R"("name": "level")")));
+  const Scene level = load_gltf(triangle().gltf(lists(kAll, R"("name": "level")")));
   CHECK_FALSE(level.meshes.at(0).has_tangents());
-  CHECK(scene_hash(level) == scene_hash(loaded(triangle().gltf(lists(kWithout, R"("name": "level")")))));
+  CHECK(scene_hash(level) == scene_hash(load_gltf(triangle().gltf(lists(kWithout, R"("name": "level")")))));
   Scene other = scene;
   other.meshes[0].tangent[3][0] = -1.0f;
   CHECK(scene_hash(other) != scene_hash(scene));
@@ -66,7 +59,7 @@ TEST_CASE("tangents of a file are read where a normal map is, and of their w the
 }
 
 TEST_CASE("tangents survive an export") {
-  const Scene scene = loaded(triangle().gltf(lists(kAll, kBumps)));
+  const Scene scene = load_gltf(triangle().gltf(lists(kAll, kBumps)));
   const Scene again = written_and_loaded(scene);
   CHECK(scene_hash(again) == scene_hash(scene));
   CHECK(tangent(again.meshes.at(0), 1) == tangent(scene.meshes.at(0), 1));
@@ -91,7 +84,7 @@ TEST_CASE("a scene file that draws a model without its tangents says so, once, w
 }
 
 TEST_CASE("without normals the tangents of a file are left out, and made along the flat ones") {
-  const Scene scene = loaded(triangle().gltf(lists(R"("POSITION": 0, "TEXCOORD_0": 2, "TANGENT": 3)", kBumps)));
+  const Scene scene = load_gltf(triangle().gltf(lists(R"("POSITION": 0, "TEXCOORD_0": 2, "TANGENT": 3)", kBumps)));
   for (size_t v = 0; v < 3; ++v) CHECK(tangent(scene.meshes.at(0), v) == Four{1, 0, 0, 1});
 }
 
@@ -101,7 +94,7 @@ TEST_CASE("tangents that are not finite are refused, and so are those whose w is
   const std::string said =
       gltf_refusal(asset.gltf(lists(R"("POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2, "TANGENT": 4)", kBumps)));
   CHECK(said.find("/accessors/4") != std::string::npos);
-  Scene scene = loaded(triangle().gltf(lists(kAll, kBumps)));
+  Scene scene = load_gltf(triangle().gltf(lists(kAll, kBumps)));
   scene.meshes[0].tangent[3][1] = 0.5f;
   CHECK_THROWS_AS(validate(scene), Error);
 }
@@ -110,8 +103,8 @@ TEST_CASE("morph targets move tangents, and joints turn them") {
   Asset asset = triangle();
   asset.accessor(Floats{0, 0, 0, 0, 0, 0, 0, 0, 1}, "VEC3");
   asset.accessor(Floats{0, 1, 0, 0, 0, 0, 0, 0, 0}, "VEC3");
-  const Scene morphed =
-      loaded(asset.gltf(lists(kAll, kBumps, R"(, "weights": [1])", R"(, "targets": [{"POSITION": 4, "TANGENT": 5}])")));
+  const Scene morphed = load_gltf(
+      asset.gltf(lists(kAll, kBumps, R"(, "weights": [1])", R"(, "targets": [{"POSITION": 4, "TANGENT": 5}])")));
   const float half = float(1.0 / std::sqrt(2.0));
   CHECK(tangent(morphed.meshes.at(0), 0) == Four{half, half, 0, 1});
   CHECK(tangent(morphed.meshes.at(0), 2) == Four{0, 1, 0, 1});  // of unit length, as normals that move are
@@ -128,7 +121,7 @@ TEST_CASE("morph targets move tangents, and joints turn them") {
       at, from.size(),
       R"("nodes": [{"mesh": 0, "skin": 0}, {"matrix": [0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1]}])");
   document.replace(document.find(R"({"nodes": [0]})"), 14, R"({"nodes": [0, 1]})");
-  const Scene skinned = loaded(bones.gltf(document + R"(, "skins": [{"joints": [1]}])"));
+  const Scene skinned = load_gltf(bones.gltf(document + R"(, "skins": [{"joints": [1]}])"));
   CHECK(tangent(skinned.meshes.at(0), 0) == Four{0, 1, 0, 1});
 }
 

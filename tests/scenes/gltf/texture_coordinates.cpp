@@ -11,13 +11,12 @@ namespace {
 
 using Floats = std::vector<float>;
 
-const Floats kCorners{0, 0, 0, 1, 0, 0, 0, 1, 0};
 const Floats kSets[] = {{0, 0, 1, 0, 0, 1}, {0.25f, 0.5f, -3, 7, 1e-3f, 12}, {5, 6, 7, 8, 9, 10}};
 
 /// A triangle with three sets of texture coordinates whose primitives have the materials of this JSON, one each.
 std::string with_materials(const std::vector<std::string>& materials, const std::string& primitive_more = "") {
   Asset asset;
-  asset.accessor(kCorners, "VEC3");
+  asset.accessor(kTriangle, "VEC3");
   for (const Floats& set : kSets) asset.accessor(set, "VEC2");
   std::string primitives, list;
   for (size_t i = 0; i < materials.size(); ++i) {
@@ -30,7 +29,7 @@ std::string with_materials(const std::vector<std::string>& materials, const std:
   return asset.gltf(R"("scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes": [{"primitives": [)" + primitives +
                     R"(]}], "materials": [)" + list +
                     R"(], "textures": [{"source": 0}], "images": [{"uri": "data:image/png;base64,)" +
-                    base64(std::string("\x89PNG\r\n\x1a\n\x01\x01") + "aaaa") + R"("}])");
+                    base64(plain_picture(1, 1, "aaaa")) + R"("}])");
 }
 
 std::string texture(const std::string& more) { return R"({"index": 0)" + (more.empty() ? "" : ", " + more) + "}"; }

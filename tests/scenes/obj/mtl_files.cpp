@@ -9,12 +9,12 @@
 namespace trueshade {
 namespace {
 
-constexpr std::string_view kTriangle = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n";
+constexpr std::string_view kObjTriangle = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n";
 
 /// Files by name; a picture is named by what it holds.
 struct Files {
   std::map<std::string, std::string> files;
-  std::string obj{kTriangle};
+  std::string obj{kObjTriangle};
   SceneLimits limits{};
   ImageDecoder decode = decoded;
 
@@ -41,9 +41,9 @@ Scene with_library(const std::string& mtl, std::map<std::string, std::string> pi
   return Files{pictures}.read();
 }
 
-Material material(const std::string& statements) { return with_library("newmtl m\n" + statements).materials.at(0); }
+Material material_of(const std::string& statements) { return with_library("newmtl m\n" + statements).materials.at(0); }
 
-std::string refusal(const std::string& mtl) {
+std::string mtl_refusal(const std::string& mtl) {
   return error_of(ErrorKind::bad_input, [&] { with_library(mtl); });
 }
 
@@ -61,7 +61,7 @@ std::array<int, 4> texel(const Scene& scene, const TextureSlot& slot, size_t ind
 }
 
 TEST_CASE("MTL: numbers of a material") {
-  const Material m = material("Kd 0.5 0.25 1\nKs 0.1 0.2 0.3\nKe 3\nNs 96.6\nd 0.5\nillum 2\nPr 0.4\nPm 1\n");
+  const Material m = material_of("Kd 0.5 0.25 1\nKs 0.1 0.2 0.3\nKe 3\nNs 96.6\nd 0.5\nillum 2\nPr 0.4\nPm 1\n");
   CHECK(m.base_color == glm::vec4(0.5f, 0.25f, 1.0f, 0.5f));
   CHECK(m.transparent);
   CHECK(m.specular_color == glm::vec3(0.1f, 0.2f, 0.3f));
@@ -69,25 +69,25 @@ TEST_CASE("MTL: numbers of a material") {
   CHECK(m.shininess == 97.0f);
   CHECK(m.roughness == 0.4f);
   CHECK(m.metallic == 1.0f);
-  const Material bare = material("");
+  const Material bare = material_of("");
   CHECK(bare.base_color == glm::vec4(0.8f, 0.8f, 0.8f, 1.0f));
   CHECK(bare.specular_color == glm::vec3(0.0f));
   CHECK(bare.shininess == 32.0f);
   CHECK_FALSE(bare.transparent);
   CHECK_FALSE(bare.unlit);
-  CHECK(material("Ns 100000").shininess == 8192.0f);
-  CHECK(material("illum 0").unlit);
-  CHECK(material("Ks 1 1 1\nillum 1").specular_color == glm::vec3(0.0f));
-  CHECK(material("KD 1 0 0").base_color == glm::vec4(1, 0, 0, 1));
+  CHECK(material_of("Ns 100000").shininess == 8192.0f);
+  CHECK(material_of("illum 0").unlit);
+  CHECK(material_of("Ks 1 1 1\nillum 1").specular_color == glm::vec3(0.0f));
+  CHECK(material_of("KD 1 0 0").base_color == glm::vec4(1, 0, 0, 1));
 }
 
 TEST_CASE("MTL: d and Tr are each other's rest, and d wins") {
-  CHECK(material("Tr 0.25").base_color.w == 0.75f);
-  CHECK(material("Tr 1").base_color.w == 1.0f);  // as MeshLab writes what is opaque
-  CHECK(!material("Tr 1").transparent);
-  CHECK(material("d 1\nTr 1").base_color.w == 1.0f);
-  CHECK(material("Tr 1\nd 1").base_color.w == 1.0f);
-  CHECK(material("d -halo 0.5").base_color.w == 0.5f);
+  CHECK(material_of("Tr 0.25").base_color.w == 0.75f);
+  CHECK(material_of("Tr 1").base_color.w == 1.0f);  // as MeshLab writes what is opaque
+  CHECK(!material_of("Tr 1").transparent);
+  CHECK(material_of("d 1\nTr 1").base_color.w == 1.0f);
+  CHECK(material_of("Tr 1\nd 1").base_color.w == 1.0f);
+  CHECK(material_of("d -halo 0.5").base_color.w == 0.5f);
 }
 
 TEST_CASE("MTL: a picture's bottom row is at v = 0, its options place it, and names may hold blanks and backslashes") {
@@ -264,25 +264,25 @@ TEST_CASE("MTL: what is not drawn is named in a note") {
 }
 
 TEST_CASE("MTL: what is wrong names its line") {
-  CHECK_STARTS_WITH(refusal("Kd 1 1 1"), "a.mtl: line 1: 'Kd' stands before the first newmtl");
-  CHECK_STARTS_WITH(refusal("newmtl m\nnewmtl m"), "a.mtl: line 2: a material of this name exists");
-  CHECK_STARTS_WITH(refusal("newmtl m\nKd 1 -1 1"), "a.mtl: line 2: a colour is out of range");
-  CHECK_STARTS_WITH(refusal("newmtl m\nKd 1 1"), "a.mtl: line 2: a colour is missing");
-  CHECK_STARTS_WITH(refusal("newmtl m\nKd 1 1 1 1"), "a.mtl: line 2: '1' is one word too many");
-  CHECK_STARTS_WITH(refusal("newmtl m\nKd spectral a.rfl 1"),
+  CHECK_STARTS_WITH(mtl_refusal("Kd 1 1 1"), "a.mtl: line 1: 'Kd' stands before the first newmtl");
+  CHECK_STARTS_WITH(mtl_refusal("newmtl m\nnewmtl m"), "a.mtl: line 2: a material of this name exists");
+  CHECK_STARTS_WITH(mtl_refusal("newmtl m\nKd 1 -1 1"), "a.mtl: line 2: a colour is out of range");
+  CHECK_STARTS_WITH(mtl_refusal("newmtl m\nKd 1 1"), "a.mtl: line 2: a colour is missing");
+  CHECK_STARTS_WITH(mtl_refusal("newmtl m\nKd 1 1 1 1"), "a.mtl: line 2: '1' is one word too many");
+  CHECK_STARTS_WITH(mtl_refusal("newmtl m\nKd spectral a.rfl 1"),
                     "a.mtl: line 2: colours by 'spectral' are not implemented");
-  CHECK_STARTS_WITH(refusal("newmtl m\nd 1.5"), "a.mtl: line 2: d is out of range");
-  CHECK_STARTS_WITH(refusal("newmtl m\nNs -1"), "a.mtl: line 2: Ns is out of range");
-  CHECK_STARTS_WITH(refusal("newmtl m\nPr nan"), "a.mtl: line 2: Pr is 'nan'");
-  CHECK_STARTS_WITH(refusal("newmtl m\nmap_Kd"), "a.mtl: line 2: the statement names no picture");
-  CHECK_STARTS_WITH(refusal("newmtl m\nmap_Kd -size 3 a.png"), "a.mtl: line 2: '-size' is no option of a picture");
-  CHECK_STARTS_WITH(refusal("newmtl m\nmap_Kd -o 1e7 a.png"), "a.mtl: line 2: an option's number is out of range");
+  CHECK_STARTS_WITH(mtl_refusal("newmtl m\nd 1.5"), "a.mtl: line 2: d is out of range");
+  CHECK_STARTS_WITH(mtl_refusal("newmtl m\nNs -1"), "a.mtl: line 2: Ns is out of range");
+  CHECK_STARTS_WITH(mtl_refusal("newmtl m\nPr nan"), "a.mtl: line 2: Pr is 'nan'");
+  CHECK_STARTS_WITH(mtl_refusal("newmtl m\nmap_Kd"), "a.mtl: line 2: the statement names no picture");
+  CHECK_STARTS_WITH(mtl_refusal("newmtl m\nmap_Kd -size 3 a.png"), "a.mtl: line 2: '-size' is no option of a picture");
+  CHECK_STARTS_WITH(mtl_refusal("newmtl m\nmap_Kd -o 1e7 a.png"), "a.mtl: line 2: an option's number is out of range");
 }
 
 TEST_CASE("MTL: names of files stay below the OBJ file's folder") {
   for (const char* name :
        {"/etc/passwd", "C:\\a.png", "http://host/a.png", "..\\a.png", "a/../../b.png", "\\a.png", "sub/..\\..\\a.png"})
-    CHECK_STARTS_WITH(refusal("newmtl m\nmap_Kd " + std::string(name)), "a.mtl: line 2: the path ");
+    CHECK_STARTS_WITH(mtl_refusal("newmtl m\nmap_Kd " + std::string(name)), "a.mtl: line 2: the path ");
   Files files;
   for (const char* name : {"/a.mtl", "../a.mtl", "file:a.mtl"}) {
     files.obj = "mtllib " + std::string(name) + "\n";
