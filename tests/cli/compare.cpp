@@ -614,12 +614,12 @@ TEST_CASE("An error that ends compare is in its JUnit, in place of what an earli
   REQUIRE(run_compare(folder, {"ref", "ref/../test", "--no-judge", "--junit", "j.xml"}).exit_code == 1);
   const Outcome gone = run_compare(folder, {"ref", "gone", "--junit", "j.xml"});
   CHECK(gone.exit_code == 5);
-  const std::string xml = content_of(folder.path("j.xml"));
+  const std::string xml = contents(folder.path("j.xml"));
   CHECK(xml.find("tests=\"1\" failures=\"0\" errors=\"1\"") != std::string::npos);
   CHECK(xml.find("message=\"gone: ") != std::string::npos);
   // A wrong command line leaves it as it is.
   CHECK(run_compare(folder, {"ref", "test", "-o", "one", "-o", "two", "--junit", "j.xml"}).exit_code == 2);
-  CHECK(content_of(folder.path("j.xml")) == xml);
+  CHECK(contents(folder.path("j.xml")) == xml);
 }
 
 TEST_CASE("of folders -o takes maps of the pictures that do not pass") {
