@@ -12,9 +12,9 @@ set(TRUESHADE_UNCHECKED "" CACHE STRING "Libraries compiled without the sanitize
 # trueshade_library(NAME FOLDERS|SOURCES... LINKS... PRIVATE_LINKS...): a static library with exactly these links. It holds
 # every .cpp file of the folders; a file named *_kernel.cpp is compiled once per SIMD target (cmake/kernels.cmake). The other
 # files are compiled a batch at a time (TRUESHADE_BATCH), so that a header is read once for all of them. So names in
-# unnamed namespaces must be unique within a library, unless the library is ONE_BY_ONE.
+# unnamed namespaces must be unique within a library.
 function(trueshade_library name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "ONE_BY_ONE" "" "FOLDERS;SOURCES;LINKS;PRIVATE_LINKS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "FOLDERS;SOURCES;LINKS;PRIVATE_LINKS")
   foreach(folder IN LISTS arg_FOLDERS)
     file(GLOB found CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
     list(APPEND arg_SOURCES ${found})
@@ -25,9 +25,7 @@ function(trueshade_library name)
   add_library(trueshade_${name} STATIC ${arg_SOURCES})
   add_library(trueshade::${name} ALIAS trueshade_${name})
   set_target_properties(trueshade_${name} PROPERTIES EXPORT_NAME ${name})
-  if(NOT arg_ONE_BY_ONE)
-    trueshade_compile_in_batches(trueshade_${name})
-  endif()
+  trueshade_compile_in_batches(trueshade_${name})
   if(name IN_LIST TRUESHADE_UNCHECKED)
     target_compile_options(trueshade_${name} PRIVATE -fno-sanitize=all)
   endif()

@@ -64,7 +64,7 @@ void write(const Account& account, size_t depth, std::string& out) {
     std::string line = indent + "  " + quantity.name;
     const auto column = [&](size_t at) { line.resize(std::max(line.size() + 2, indent.size() + 2 + at), ' '); };
     column(kName);
-    line += quantity.shown.empty() ? joined(quantity.values, value_text) : quantity.shown;
+    line += quantity.shown.empty() ? values_text(quantity.values) : quantity.shown;
     if (!quantity.meaning.empty()) {
       column(kName + kValues);
       line += quantity.meaning;
@@ -89,6 +89,8 @@ std::string value_text(const AccountValue& value) {
       },
       value);
 }
+
+std::string values_text(const std::vector<AccountValue>& values) { return joined(values, value_text); }
 
 std::string index_ranges(std::span<const int64_t> indices) {
   std::string out;

@@ -71,6 +71,9 @@ std::string index_ranges(std::span<const int64_t> indices);
 /// One value: digits, or the word itself.
 std::string value_text(const AccountValue& value);
 
+/// Several values, with a comma and a space between two.
+std::string values_text(const std::vector<AccountValue>& values);
+
 /// Lines for people: a heading, then a line a quantity, `name  values  meaning`, smaller steps indented. Ends in a line
 /// feed.
 /// Names of files and meshes in it have no line breaks and nothing that a terminal obeys.

@@ -6,7 +6,7 @@
 namespace trueshade {
 namespace {
 
-constexpr size_t kMostListed = 64;
+constexpr size_t kMostLightsListed = 64;
 
 /// Names of what a light that adds nothing is listed under.
 const char* list_name(LightFate fate) {
@@ -40,10 +40,10 @@ std::vector<size_t> listed(const LightTotal& total, Detail detail) {
   std::vector<size_t> out;
   for (size_t i = 0; i < total.lights.size(); ++i)
     if (detail == Detail::all || total.lights[i].fate == LightFate::adds) out.push_back(i);
-  if (detail == Detail::all || out.size() <= kMostListed) return out;
+  if (detail == Detail::all || out.size() <= kMostLightsListed) return out;
   std::stable_sort(out.begin(), out.end(),
                    [&](size_t a, size_t b) { return strength(total.lights[a]) > strength(total.lights[b]); });
-  out.resize(kMostListed);
+  out.resize(kMostLightsListed);
   std::sort(out.begin(), out.end());
   return out;
 }
@@ -75,7 +75,7 @@ Account lights_account(const ExplainedFrame& frame, const LightTotal& total, Lig
   add_program(frame, total, detail, out);
   add_lists(total, out);
   const std::vector<size_t> shown = listed(total, detail);
-  if (detail == Detail::usual && shown.size() == kMostListed)
+  if (detail == Detail::usual && shown.size() == kMostLightsListed)
     out.add("shown", int64_t(shown.size()), "lights that add most; --all prints all");
   for (const size_t i : shown) {
     const LightAtPixel& at = total.lights[i];

@@ -21,7 +21,7 @@ float float_of(uint32_t bits) { return std::bit_cast<float>(bits); }
 /// The sign of a NaN is none of the renderer's.
 std::string number_text(float value) { return std::isnan(value) ? "NaN" : value_text(value); }
 
-std::string values_text(std::span<const float> values) {
+std::string numbers_text(std::span<const float> values) {
   std::string out;
   for (const float value : values) out += (out.empty() ? "" : ", ") + number_text(value);
   return out;
@@ -184,7 +184,7 @@ void add_nonfinite(const ExplainedFrame& frame, const PixelHistory& history, Acc
   for (const AccountValue& value : values_in_format(frame.target.format, history.stored))
     stored += (stored.empty() ? "" : ", ") +
               (std::holds_alternative<float>(value) ? number_text(std::get<float>(value)) : value_text(value));
-  to.add("nonfinite", values_text(loss->values), "is " + loss->of + "; stored is " + stored);
+  to.add("nonfinite", numbers_text(loss->values), "is " + loss->of + "; stored is " + stored);
   if (!loss->line.empty()) to.add("line", loss->line, "of the light program, where a value first is not finite");
   if (!loss->operation.empty()) to.add("operation", loss->operation, "");
 }

@@ -13,12 +13,6 @@ namespace {
 
 constexpr size_t kMostSteps = 60;
 
-std::string joined(const std::vector<AccountValue>& values) {
-  std::string out;
-  for (const AccountValue& value : values) out += (out.empty() ? "" : ", ") + value_text(value);
-  return out;
-}
-
 /// Two digits tell how near half a place it was.
 std::string rounding_text(const std::vector<double>& rounding) {
   if (rounding.empty()) return {};
@@ -44,7 +38,7 @@ void add_step(const ProgramStep& step, size_t number, Account& to) {
   const auto column = [&line](size_t at) { line.resize(std::max(line.size() + 2, at), ' '); };
   line = '#' + std::to_string(number);
   column(kValues);
-  line += joined(step.values);
+  line += values_text(step.values);
   column(kRounding);
   line += rounding_text(step.rounding);
   column(kExpression);
@@ -88,7 +82,7 @@ void add_lines(const ExplainedFrame& frame, const ProgramAtSurface& at, const No
   for (const size_t i : steps) {
     const ProgramStep& step = trace.steps[i];
     if (step.line == 0 && has_lines) {
-      ours += (ours.empty() ? "#" : "; #") + std::to_string(i + 1) + " is " + joined(step.values);
+      ours += (ours.empty() ? "#" : "; #") + std::to_string(i + 1) + " is " + values_text(step.values);
       continue;
     }
     if (line == nullptr || step.line != number) {

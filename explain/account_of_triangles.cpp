@@ -7,7 +7,7 @@
 namespace trueshade {
 namespace {
 
-constexpr size_t kMostListed = 64;
+constexpr size_t kMostTrianglesListed = 64;
 
 /// The window coordinates of a fragment's piece, in 1/256 pixel, corners in canonical order: x, y of each.
 std::vector<int64_t> window_coordinates(const PixelFragment& f, WindowPixel pixel) {
@@ -101,7 +101,7 @@ std::vector<size_t> listed(const PixelHistory& history, Surfaces which, Detail d
   size_t drawn = 0;
   for (size_t i = outcomes.size(); i-- > 0;) {
     const bool lit = which == Surfaces::opaque && (history.visible == i || holds(history.tied_at, i));
-    if (lit || detail == Detail::all || out.size() < kMostListed) out.push_back(i);
+    if (lit || detail == Detail::all || out.size() < kMostTrianglesListed) out.push_back(i);
     drawn += outcomes[i].drawn;
   }
   std::reverse(out.begin(), out.end());

@@ -25,9 +25,7 @@ void add_finished_pixel(const Scene& scene, const Pipeline& pipeline, int x, int
 
 std::string explanation_text(const Account& account) {
   const Quantity& stored = account.quantities.back();
-  std::string words;
-  for (const AccountValue& value : stored.values) words += (words.empty() ? "" : ", ") + value_text(value);
-  return account_text(account) + "\nstored  " + words + "  " + stored.meaning + '\n';
+  return account_text(account) + "\nstored  " + values_text(stored.values) + "  " + stored.meaning + '\n';
 }
 
 }  // namespace trueshade

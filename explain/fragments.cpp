@@ -11,8 +11,8 @@ namespace trueshade {
 namespace {
 
 constexpr float kAnywhere = std::numeric_limits<float>::quiet_NaN();
-constexpr size_t kMostListed = 8;  // of triangles that do not cover the sample
-constexpr double kSlack = 2.0;     // pixels: more than snapping moves a corner
+constexpr size_t kMostKept = 8;  // of triangles that do not cover the sample
+constexpr double kSlack = 2.0;   // pixels: more than snapping moves a corner
 
 /// Where a vertex appears, in pixels, to about 1/256 pixel; kAnywhere where that is not known so simply.
 struct RoughPosition {
@@ -104,14 +104,14 @@ void keep_nearest(PixelFragment&& fragment, std::vector<PixelFragment>& nearest)
   if (!(fragment.distance <= kSlack)) return;
   const auto place = std::upper_bound(nearest.begin(), nearest.end(), fragment.distance,
                                       [](double value, const PixelFragment& f) { return value < f.distance; });
-  if (size_t(place - nearest.begin()) >= kMostListed) return;
+  if (size_t(place - nearest.begin()) >= kMostKept) return;
   nearest.insert(place, std::move(fragment));
-  if (nearest.size() > kMostListed) nearest.pop_back();
+  if (nearest.size() > kMostKept) nearest.pop_back();
 }
 
 /// Keeps a culled triangle if it would cover the sample.
 void keep_culled(const ExplainedFrame& frame, const PixelFragment& fragment, WindowPixel pixel, PixelTriangles& out) {
-  if (out.culled.size() >= kMostListed) return;
+  if (out.culled.size() >= kMostKept) return;
   GeometryState any_side = frame.view.faces.of(fragment.instance);
   any_side.cull_face = CullFace::none;
   PixelFragment drawn = fragment_at(fragment.clip, frame.view.window, any_side, pixel);

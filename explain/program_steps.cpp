@@ -35,7 +35,7 @@ std::string text_of(const ValueName& name) {
 }
 
 /// The names of the components of an operand in one: `surface.normal.xyz`, `#3`, `(#3.x, 0, 1)`.
-std::string joined(std::span<const ValueName> names) {
+std::string operand_name(std::span<const ValueName> names) {
   const ValueName& first = names.front();
   const auto all = [&](auto holds) { return std::all_of(names.begin(), names.end(), holds); };
   if (all([&](const ValueName& n) { return n == first; })) return text_of(first);
@@ -101,7 +101,7 @@ class Tracer {
     for (ProgramStep& step : out_.steps) finish(step);
     std::vector<ValueName> names;
     for (const NodeId id : wanted_) names.push_back(name_of(id));
-    out_.result = joined(names);
+    out_.result = operand_name(names);
     return std::move(out_);
   }
 
@@ -259,7 +259,7 @@ class Tracer {
       }
       std::vector<ValueName> names;
       for (const Named& component : of) names.push_back(component.names[place]);
-      step.expression += joined(names);
+      step.expression += operand_name(names);
       ++place;
     }
     for (size_t k = 0; k < of.size(); ++k)

@@ -15,8 +15,6 @@ namespace {
 using P = FaultParameter;
 using Suspects = std::vector<FaultParameter>;
 
-glm::vec3 vec3_of(const Triple3& v) { return {float(v[0]), float(v[1]), float(v[2])}; }
-
 void set_matrix(Scene& s, const Matrix4& m) {
   s.camera.clip_from_world.emplace();
   for (size_t i = 0; i < 16; ++i) (*s.camera.clip_from_world)[i] = float(m[i]);
@@ -201,7 +199,7 @@ Suspects by_its_origin(const PlaneEvidence& e) {
 }
 
 using Fault = PlaneFault;
-constexpr double kOfExtent = -1e-4;
+constexpr double kCameraChange = -1e-4;  ///< of the extent: PlaneFault::change_of
 
 constexpr PlaneFault of_camera(std::string_view name, std::string_view text, bool (*edit)(Scene&, Pipeline&, const P&),
                                Suspects (*suspects)(const PlaneEvidence&), int numbers, double change_of,
@@ -217,10 +215,11 @@ constexpr PlaneFault of_camera(std::string_view name, std::string_view text, boo
           .change_of = change_of};
 }
 
-constexpr PlaneFault kFaults[] = {
-    of_camera("camera-moved", "the camera is moved by %v", move_camera, from_nothing, 3, kOfExtent),
-    of_camera("camera-eye", "the camera's eye is moved by %v, its target is not", move_eye, from_nothing, 3, kOfExtent),
-    of_camera("camera-target", "the camera's target is moved by %v", move_target, from_nothing, 3, kOfExtent),
+constexpr PlaneFault kCameraFaults[] = {
+    of_camera("camera-moved", "the camera is moved by %v", move_camera, from_nothing, 3, kCameraChange),
+    of_camera("camera-eye", "the camera's eye is moved by %v, its target is not", move_eye, from_nothing, 3,
+              kCameraChange),
+    of_camera("camera-target", "the camera's target is moved by %v", move_target, from_nothing, 3, kCameraChange),
     of_camera("camera-turned", "the camera is turned by %v degrees about its axes right, up and back", turn_camera,
               from_nothing, 3, 0.05),
     of_camera("camera-angle", "the camera's angle of view is %v times what it should be", other_angle, from_one, 1,
@@ -238,6 +237,6 @@ constexpr PlaneFault kFaults[] = {
 
 }  // namespace
 
-std::span<const PlaneFault> camera_faults() { return kFaults; }
+std::span<const PlaneFault> camera_faults() { return kCameraFaults; }
 
 }  // namespace trueshade::oracle

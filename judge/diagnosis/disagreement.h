@@ -22,6 +22,18 @@ inline double cost_of(double steps) {
 /// predicted. So a fault that predicts numbers comes first unless it leaves much unexplained.
 inline constexpr double kAnythingCost = 0.1;
 
+/// The share of the pixels that are wrong which a finding explains at least.
+inline constexpr double kLeastExplained = 1.0 / 3;
+
+/// Pixels that are wrong, below which there is nothing to explain.
+inline constexpr double kLeastChanged = 8;
+
+/// Steps beyond what sums in another order and estimates leave.
+inline constexpr double kFarOff = 1.5;
+
+/// Single faults, the likeliest by a few pixels, that are judged by the whole sample.
+inline constexpr size_t kFinalists = 8;
+
 /// A pixel of the sample. It stands for `weight` pixels of the image.
 struct SampledPixel {
   int x = 0, y = 0;

@@ -15,10 +15,10 @@ namespace trueshade::oracle {
 namespace {
 
 constexpr size_t kMostOfObject = 240, kMostOfCamera = 300;  ///< pixels
-constexpr double kScales[] = {0.1,  0.01, 1e-3,
-                              1e-4, 1e-5, 1e-6};  ///< of the scene's extent, of a unit normal, of a window
-constexpr double kOnFaces = 1e-4;                 ///< of kScales: beside pixels of an outline, each of which counts 1
-constexpr double kNamed = 0.3;                    ///< the share of wrong pixels that an object has which is to blame
+constexpr double kFitScales[] = {0.1,  0.01, 1e-3,
+                                 1e-4, 1e-5, 1e-6};  ///< of the scene's extent, of a unit normal, of a window
+constexpr double kOnFaces = 1e-4;  ///< of kFitScales: beside pixels of an outline, each of which counts 1
+constexpr double kBlamed = 0.3;    ///< the share of wrong pixels that an object has which is to blame
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 /// Every n-th element, so that at most so many are left.
@@ -197,7 +197,7 @@ std::vector<FaultParameter> fitted_parameters(const PlaneFault& fault, std::span
   if (fitter.pixels() < 4) return {};
   std::vector<std::pair<double, size_t>> starts;
   for (size_t i = 0; i < suspects.size(); ++i)
-    starts.emplace_back(robust_error(fitter.residuals(fault, suspects[i]), kScales[1]), i);
+    starts.emplace_back(robust_error(fitter.residuals(fault, suspects[i]), kFitScales[1]), i);
   if (starts.size() > 3) std::stable_sort(starts.begin() + 1, starts.end());  // the first changes nothing, or little
   const double size = fault.change_of < 0 ? -fault.change_of * fitter.extent() : fault.change_of;
   std::optional<FaultParameter> best;
@@ -206,10 +206,10 @@ std::vector<FaultParameter> fitted_parameters(const PlaneFault& fault, std::span
     const FaultParameter& from = suspects[starts[i].second];
     const auto at = [&](const Triple3& vector) { return FaultParameter(from.number, vector, from.part); };
     const Residuals residuals = [&](const Triple3& vector) { return fitter.residuals(fault, at(vector)); };
-    const Triple3 vector = fitted({residuals, fault.numbers.vector, size, kScales, fault.start}, from.vector);
+    const Triple3 vector = fitted({residuals, fault.numbers.vector, size, kFitScales, fault.start}, from.vector);
     const auto is = [](double v) { return std::isfinite(v) && std::fabs(v) < 1e9; };
     if (!std::all_of(vector.begin(), vector.end(), is)) continue;
-    const double error = robust_error(residuals(vector), kScales[2]);
+    const double error = robust_error(residuals(vector), kFitScales[2]);
     if (error < least) least = error, best = at(vector);
   }
   if (!best) return {};
@@ -243,7 +243,7 @@ std::vector<uint32_t> suspected_objects(const PlaneEvidence& evidence) {
   std::sort(ranked.begin(), ranked.end());
   std::vector<uint32_t> objects;
   for (const auto& [weight, object] : ranked)
-    if (objects.size() < 2 && -weight >= kNamed * wrong && object <= double(evidence.scene.instances.size()))
+    if (objects.size() < 2 && -weight >= kBlamed * wrong && object <= double(evidence.scene.instances.size()))
       objects.push_back(uint32_t(object) - 1);
   return objects;
 }
@@ -253,7 +253,7 @@ std::vector<FaultParameter> suspected_parameters(const PlaneEvidence& evidence, 
   double wrong = 0, covered = 0;
   for (const EvidentPixel& p : evidence.pixels)
     wrong += p.wrong ? p.at.weight : 0, covered += p.expected.covered || p.given.covered ? p.at.weight : 0;
-  if (fault.fit == Fit::camera && wrong < kNamed * covered) return {};
+  if (fault.fit == Fit::camera && wrong < kBlamed * covered) return {};
   const std::vector<FaultParameter> suspects = fault.suspects(evidence);
   if (suspects.empty() || fault.fit == Fit::none) return suspects;
   if (fault.fit == Fit::camera) {

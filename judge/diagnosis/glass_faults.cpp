@@ -12,7 +12,7 @@ namespace trueshade::oracle {
 namespace {
 
 constexpr double kSameCodes = 1.5;  ///< steps, of pixels that are blended several times
-constexpr double kNamed = 1.0 / 3, kRival = 0.06, kLeastChanged = 8, kParameterCost = 0.002;
+constexpr double kGlassRival = 0.06, kGlassParameterCost = 0.002;
 constexpr std::array<size_t, 4> kGlassSample = {300, 60, 150, 0};
 
 // --- the table
@@ -63,7 +63,7 @@ void decode_alpha(GlassPixel& p, double) {
   for (GlassLayer& l : p.layers) l.color[3] = decoded(l.color[3]);
 }
 
-constexpr GlassFault kFaults[] = {
+constexpr GlassFault kGlassFaults[] = {
     {"glass-missing", "the transparent surfaces are not drawn", leave_out},
     {"glass-object-missing", "transparent object %s is not drawn", leave_one_out, true},
     {"glass-reversed", "the transparent surfaces are drawn in the opposite order", turn_order},
@@ -85,7 +85,7 @@ constexpr GlassFault kFaults[] = {
 
 // --- the search
 
-struct Candidate {
+struct GlassCandidate {
   NamedGlassFault fault;
   double cost = 0, explained = 0, contradicted = 0;
 };
@@ -96,8 +96,8 @@ class GlassCase {
             const StageVerdict& stage, const PictureCase& picture);
 
   double changed() const { return changed_; }
-  Candidate judged(const NamedGlassFault& fault) const;
-  Finding finding(const Candidate& c) const;
+  GlassCandidate judged(const NamedGlassFault& fault) const;
+  Finding finding(const GlassCandidate& c) const;
   std::vector<NamedGlassFault> all() const;
 
  private:
@@ -180,7 +180,7 @@ std::vector<NamedGlassFault> GlassCase::all() const {
       if (s.off >= kSameCodes && std::find(objects.begin(), objects.end(), l.instance) == objects.end())
         objects.push_back(l.instance);
   std::vector<NamedGlassFault> named;
-  for (const GlassFault& fault : kFaults) {
+  for (const GlassFault& fault : kGlassFaults) {
     if (!fault.of_object) named.push_back({&fault, 0});
     for (size_t i = 0; fault.of_object && i < std::min<size_t>(64, objects.size()); ++i)
       named.push_back({&fault, double(objects[i])});
@@ -188,8 +188,8 @@ std::vector<NamedGlassFault> GlassCase::all() const {
   return named;
 }
 
-Candidate GlassCase::judged(const NamedGlassFault& fault) const {
-  Candidate c{fault};
+GlassCandidate GlassCase::judged(const NamedGlassFault& fault) const {
+  GlassCandidate c{fault};
   for (const Seen& s : seen_) {
     const double now = off(s, shown(s, &fault));
     const bool was = s.off >= kSameCodes, is = now >= kSameCodes;
@@ -197,11 +197,11 @@ Candidate GlassCase::judged(const NamedGlassFault& fault) const {
     if (was && !is) c.explained += s.at.weight;
     if (!was && is) c.contradicted += s.at.weight;
   }
-  c.cost = c.cost / changed_ + kParameterCost * fault.fault->form().count();
+  c.cost = c.cost / changed_ + kGlassParameterCost * fault.fault->form().count();
   return c;
 }
 
-Finding GlassCase::finding(const Candidate& c) const {
+Finding GlassCase::finding(const GlassCandidate& c) const {
   Finding f;
   f.name = fault_name(*c.fault.fault, c.fault.parameter), f.text = fault_text(*c.fault.fault, c.fault.parameter);
   f.plane = "picture", f.changed = uint64_t(std::llround(changed_));
@@ -221,7 +221,7 @@ Finding GlassCase::finding(const Candidate& c) const {
 
 }  // namespace
 
-std::span<const GlassFault> glass_faults() { return kFaults; }
+std::span<const GlassFault> glass_faults() { return kGlassFaults; }
 
 std::vector<Finding> glass_findings(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                                     const Capture& capture, const StageVerdict& stage, const PictureCase& picture,
@@ -229,17 +229,17 @@ std::vector<Finding> glass_findings(const Scene& scene, const Pipeline& pipeline
   const GlassCase glass(scene, pipeline, profile, capture, stage, picture);
   std::vector<Finding> findings;
   if (glass.changed() < kLeastChanged) return findings;
-  std::vector<Candidate> candidates;
+  std::vector<GlassCandidate> candidates;
   if (!only.empty()) {
     for (const NamedGlassFault& fault : only) findings.push_back(glass.finding(glass.judged(fault)));
     return findings;
   }
   for (const NamedGlassFault& fault : glass.all()) candidates.push_back(glass.judged(fault));
   std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
-  for (const Candidate& c : candidates) {
-    const bool explains = c.explained - c.contradicted >= kNamed * glass.changed();
-    if (!explains || c.cost > candidates.front().cost + kRival) continue;
+                   [](const GlassCandidate& a, const GlassCandidate& b) { return a.cost < b.cost; });
+  for (const GlassCandidate& c : candidates) {
+    const bool explains = c.explained - c.contradicted >= kLeastExplained * glass.changed();
+    if (!explains || c.cost > candidates.front().cost + kGlassRival) continue;
     Finding f = glass.finding(c);
     if (!f.proof.plane.empty()) findings.push_back(std::move(f));
   }

@@ -41,7 +41,6 @@ bool has_cones(const LightPass& p) {
 bool order_matters(const LightPass& p) {
   return p.lights.size() > 1 && info(p.pipeline.target).number_class == NumberClass::floating;
 }
-bool of_codes(const LightPass& p) { return info(p.pipeline.target).number_class == NumberClass::unorm; }
 bool of_small_floats(const LightPass& p) { return info(p.pipeline.target).small_float(); }
 bool stores_truncate(const LightPass& p) {
   return of_codes(p) || (of_small_floats(p) && p.pipeline.gbuffer.half_round == HalfRound::nearest);
@@ -177,7 +176,6 @@ void positions_in_view(LightPass& p, double) {
 }
 
 using Vector = std::array<double, 3>;
-glm::vec3 vec3_of(const Vector& v) { return {float(v[0]), float(v[1]), float(v[2])}; }
 void move_light(Light& l, const Vector& v) { l.position += vec3_of(v); }
 void turn_light(Light& l, const Vector& v) {
   const glm::vec3 d = l.direction + vec3_of(v);
@@ -225,11 +223,10 @@ bool sums_once(const LightPass& p) {
 }
 bool lists_tiles(const LightPass& p) { return several(p) && has_range(p) && !is_forward(p.pipeline.strategy); }
 
-constexpr double kFactors[] = {0.5, 0.9, 0.99, 1.01, 1.1, 2};
 constexpr double kSpecularFactors[] = {0.25, 0.5, 2, 4};
-constexpr double kPlaneFactors[] = {0.1, 0.2, 0.5, 0.8, 1.25, 2, 5, 10};
-constexpr double kExponents[] = {0.25, 0.5, 0.97, 1.03, 2, 4};
-constexpr double kFalloffs[] = {0, 1, 2, 3, 4, 5};
+constexpr double kLightingPlaneFactors[] = {0.1, 0.2, 0.5, 0.8, 1.25, 2, 5, 10};
+constexpr double kShininessFactors[] = {0.25, 0.5, 0.97, 1.03, 2, 4};
+constexpr double kFalloffNumbers[] = {0, 1, 2, 3, 4, 5};
 constexpr double kNormalCodes[] = {255, 1023};
 constexpr double kStrides[] = {2, 3, 4};
 constexpr double kTiles[] = {0, 1, 2, 3, 4, 5, 6, 7},
@@ -246,16 +243,12 @@ std::string neighbour_name(double at) {
   return kNames[std::clamp(int(at), 0, 7)];
 }
 
-constexpr auto kNone = Search::none;
-constexpr auto kOneOf = Search::one_of;
-constexpr auto kSmooth = Search::smooth;
-
 constexpr PictureFault lists_of_other_tiles(int side, std::string_view name, std::string_view text) {
   return {.name = name,
           .text = text,
           .light = nothing,
           .can = lists_tiles,
-          .search = kOneOf,
+          .search = Search::one_of,
           .starts = kTiles,
           .tile = side,
           .says = neighbour_name};
@@ -266,7 +259,7 @@ constexpr PictureFault full_lists(int side, std::string_view name, std::string_v
           .text = text,
           .light = nothing,
           .can = lists_tiles,
-          .search = kOneOf,
+          .search = Search::one_of,
           .starts = kListed,
           .tile = side,
           .counts = true};
@@ -280,8 +273,8 @@ constexpr PictureFault stale_tiles(int side, std::string_view name, std::string_
 constexpr Vector kReaches[] = {{0.5, 1, 1}, {0.75, 1, 1}, {0.9, 1, 1}, {1.1, 1, 1}, {1.3, 1, 1}, {2, 1, 1}};
 constexpr Vector kCones[] = {{0.5, 1, 1}, {0.75, 1, 1}, {0.9, 0.9, 1}, {1.1, 1.1, 1}, {1.25, 1, 1}, {2, 1, 1},
                              {8, 1, 1},   {1, 0.5, 1},  {1, 2, 1},     {0.5, 0.5, 1}, {2, 2, 1}};
-constexpr Vector kExponents1[] = {{0.5, 1, 1}, {2, 1, 1}, {4, 1, 1}};
-constexpr Vector kFalloffs1[] = {{0.5, 0.5, 1}, {2, 2, 1}, {0.5, 1, 1}, {2, 1, 1}, {1, 0.5, 1}, {1, 2, 1}};
+constexpr Vector kExponentsOfOne[] = {{0.5, 1, 1}, {2, 1, 1}, {4, 1, 1}};
+constexpr Vector kFalloffsOfOne[] = {{0.5, 0.5, 1}, {2, 2, 1}, {0.5, 1, 1}, {2, 1, 1}, {1, 0.5, 1}, {1, 2, 1}};
 
 constexpr double kNumberCost = 0.004;  ///< what a number more than one must earn
 
@@ -311,21 +304,21 @@ constexpr PictureFault of_all(std::string_view name, std::string_view text, bool
 }
 
 // name, text, light, value, can, search, starts, move, doubt, reach
-constexpr PictureFault kFaults[] = {
+constexpr PictureFault kLightFaults[] = {
     {"light-intensity", "the lights are %s times as bright as they should be", scale_intensity, nullptr, has_lamps,
-     kSmooth, kFactors},
-    {"light-range", "the lights' range is %s times what it should be", scale_range, nullptr, has_range, kSmooth,
-     kFactors},
+     Search::smooth, kFirstFactors},
+    {"light-range", "the lights' range is %s times what it should be", scale_range, nullptr, has_range, Search::smooth,
+     kFirstFactors},
     {"light-attenuation", "the lights' linear and quadratic attenuation are %s times what they should be",
-     scale_attenuation, nullptr, has_attenuation, kSmooth, kFactors},
+     scale_attenuation, nullptr, has_attenuation, Search::smooth, kFirstFactors},
     {"light-position", "the lights' positions are %s times what they should be", scale_position, nullptr, has_lamps,
-     kSmooth, kFactors},
+     Search::smooth, kFirstFactors},
     {"light-mirrored-z", "the lights' z has the wrong sign", mirror_z, nullptr, has_lamps},
     {"light-colors-bgr", "the lights' colours are in the order BGR", swap_colors},
     {"falloff-distance-once", "the falloff uses d where d^2 is due", distance_once, nullptr, squares},
     {"falloff-distance-squared", "the falloff uses d^2 where d is due", distance_squared, nullptr, goes_by_distance},
-    {"falloff-other", "the falloff is `%s`", other_falloff, nullptr, falls_off, kOneOf, kFalloffs, nullptr, 0, 0, 0,
-     falloff_name},
+    {"falloff-other", "the falloff is `%s`", other_falloff, nullptr, falls_off, Search::one_of, kFalloffNumbers,
+     nullptr, 0, 0, 0, falloff_name},
     {"cone-dropped", "spot lights shine in all directions", drop_cones, nullptr, has_cones},
     {"half-vector-viewer", "the half vector is L - V: the viewer's direction has the wrong sign", viewer_turned,
      nullptr, shines},
@@ -338,15 +331,16 @@ constexpr PictureFault kFaults[] = {
     {"specular-mask", "the highlight is not left out where N.L is not positive, or is where it should stay", other_mask,
      nullptr, shines},
     {"specular-missing", "there is no highlight", no_specular, nullptr, shines},
-    {"specular-factor", "the highlight is %s times as strong as it should be", scale_specular, nullptr, shines, kSmooth,
-     kSpecularFactors, nullptr, 0.01},
-    {"shininess", "the shininess is %s times what it should be", scale_shininess, nullptr, shines, kSmooth, kExponents},
-    {"diffuse-factor", "the diffuse term is %s times what it should be", scale_diffuse, nullptr, has_lamps, kSmooth,
-     kFactors, nullptr, 0.01},
+    {"specular-factor", "the highlight is %s times as strong as it should be", scale_specular, nullptr, shines,
+     Search::smooth, kSpecularFactors, nullptr, 0.01},
+    {"shininess", "the shininess is %s times what it should be", scale_shininess, nullptr, shines, Search::smooth,
+     kShininessFactors},
+    {"diffuse-factor", "the diffuse term is %s times what it should be", scale_diffuse, nullptr, has_lamps,
+     Search::smooth, kFirstFactors, nullptr, 0.01},
     {"lighting-normal-length",
      "the light pass leaves normals unnormalised, or normalises those that it should take as they are", other_length},
     {"lighting-normal-rounded", "the light pass reads normals rounded to %s steps", round_normals, nullptr, nullptr,
-     kOneOf, kNormalCodes},
+     Search::one_of, kNormalCodes},
     {"lighting-normal-turned", "the light pass turns normals round", turn_normals},
     {"lighting-normal-in-view", "the light pass takes normals in view space for normals in the world", normals_to_view},
     {"diffuse-unclamped", "N.L is not clamped to 0, or is where it should not be", unclamp},
@@ -354,7 +348,7 @@ constexpr PictureFault kFaults[] = {
     {"diffuse-half-lambert", "N.L is replaced by (N.L / 2 + 1/2)^2", half_lambert},
     {"diffuse-missing", "N.L is missing", no_cosine},
     {"ambient-factor", "the ambient light is %s times as bright as it should be", scale_ambient, nullptr, has_ambient,
-     kSmooth, kFactors},
+     Search::smooth, kFirstFactors},
     {"emission-missing", "surfaces do not emit", no_emission, nullptr, emits},
     {"light-mirrored-x", "the lights' x has the wrong sign", mirror<0>, nullptr, has_lamps},
     {"light-mirrored-y", "the lights' y has the wrong sign", mirror<1>, nullptr, has_lamps},
@@ -374,18 +368,18 @@ constexpr PictureFault kFaults[] = {
     of_one("light-cone", "the cone and the penumbra of light %s are %v times as wide as they should be", has_cones,
            scale_cone, spot, 2, 1, kCones),
     of_one("light-exponent", "the exponent of the cone of light %s is %v times what it should be", has_cones,
-           scale_exponent, spot, 1, 1, kExponents1),
+           scale_exponent, spot, 1, 1, kExponentsOfOne),
     of_one("light-falloff", "the linear and the quadratic attenuation of light %s are %v times what they should be",
-           has_attenuation, scale_falloff, lamp, 2, 1, kFalloffs1),
+           has_attenuation, scale_falloff, lamp, 2, 1, kFalloffsOfOne),
     {"lighting-near", "positions are rebuilt from depths with a near plane %s times as far as it is", scale_near,
-     nullptr, rebuilds_positions, kSmooth, kPlaneFactors},
+     nullptr, rebuilds_positions, Search::smooth, kLightingPlaneFactors},
     {"lighting-far", "positions are rebuilt from depths with a far plane %s times as far as it is", scale_far, nullptr,
-     rebuilds_positions, kSmooth, kPlaneFactors},
-    {"light-cones", "all cones are %s times as wide as they should be", scale_cones, nullptr, has_cones, kSmooth,
+     rebuilds_positions, Search::smooth, kLightingPlaneFactors},
+    {"light-cones", "all cones are %s times as wide as they should be", scale_cones, nullptr, has_cones, Search::smooth,
      kSpecularFactors},
     {"light-directions-turned", "the lights' directions have the wrong sign", turn_directions, nullptr, has_directions},
     {"light-extents", "the extents of lights with an area are %s times what they should be", scale_extents, nullptr,
-     has_areas, kSmooth, kSpecularFactors},
+     has_areas, Search::smooth, kSpecularFactors},
     {"light-extents-swapped", "the two extents of rectangles are swapped", swap_extents, nullptr, has_flats},
     {"light-both-sides", "lights with an area shine to both sides where they should shine to one", shine_to_both_sides,
      nullptr, has_flats},
@@ -396,7 +390,7 @@ constexpr PictureFault kFaults[] = {
     of_all("lighting-eye", "the viewer of highlights is moved by %v", shines_locally, move_viewer),
     {"light-positions-from-eye", "the lights' positions are relative to the eye", positions_from_eye, nullptr,
      has_lamps},
-    {"light-stride", "of %s lights one is drawn", thin_out, nullptr, several, kOneOf, kStrides},
+    {"light-stride", "of %s lights one is drawn", thin_out, nullptr, several, Search::one_of, kStrides},
     {"light-positions-half", "the lights' positions are rounded to half floats", positions_as_halves, nullptr,
      has_lamps},
     {"light-positions-view", "the lights' positions are in view space", positions_in_view, nullptr, has_lamps},
@@ -423,13 +417,13 @@ constexpr PictureFault kFaults[] = {
      [](const LightPass& p) { return several(p) && !blends_lights(p.pipeline.strategy); }},
     {"store-truncated", "stores truncate", truncate, nullptr, stores_truncate},
     {"store-nearest", "halves are rounded to nearest", to_nearest, nullptr, stores_nearest},
-    {"store-upward", "stores round upward", round_up, nullptr, nullptr, kNone, {}, nullptr, 0.01},
+    {"store-upward", "stores round upward", round_up, nullptr, nullptr, Search::none, {}, nullptr, 0.01},
     {"store-per-light", "each light is rounded where the sum should be, or the sum where each light should be",
      codes_per_light, nullptr, sums_once},
 };
 
 }  // namespace
 
-std::span<const PictureFault> light_faults() { return kFaults; }
+std::span<const PictureFault> light_faults() { return kLightFaults; }
 
 }  // namespace trueshade::oracle

@@ -15,8 +15,8 @@ namespace trueshade::oracle {
 
 namespace {
 
-constexpr double kLeastExplained = 0.5;  // of the difference, before anything is said
-constexpr size_t kLeastSeen = 8;         // pixels of a step
+constexpr double kMostLeft = 0.5;  // of the difference, before anything is said
+constexpr size_t kLeastSeen = 8;   // pixels of a step
 
 /// A quantity that a term may depend on, and its edges; outside these a factor stays 1.
 struct Quantity {
@@ -110,7 +110,7 @@ class QuotientFit {
       if (quantity.name[0] == 'd') name_falloff(shares_, fit);
       if (!out || fit.left < 0.9 * out->left) out = std::move(fit);
     }
-    if (!(out->left <= kLeastExplained)) return std::nullopt;
+    if (!(out->left <= kMostLeft)) return std::nullopt;
     if (out->text.empty()) describe(*out);
     return is_right(*out) ? std::nullopt : out;
   }

@@ -98,13 +98,13 @@ bool change_normal_maps(Scene& s, const Change& change) {
   }
   return any;
 }
-bool of_codes(const Texture& t) { return t.format == TextureFormat::rgba8 || t.format == TextureFormat::srgb8_a8; }
+bool has_codes(const Texture& t) { return t.format == TextureFormat::rgba8 || t.format == TextureFormat::srgb8_a8; }
 
 /// The channel's codes the other way round.
 template <size_t Channel>
 bool turn_channel(Scene& s, Pipeline&, double) {
   return change_normal_maps(s, [](Texture& t) {
-    if (!of_codes(t)) return false;
+    if (!has_codes(t)) return false;
     for (TextureLevel& level : t.levels)
       for (size_t i = Channel; i < level.bytes.size(); i += 4) level.bytes[i] = uint8_t(255 - level.bytes[i]);
     return true;
@@ -112,7 +112,7 @@ bool turn_channel(Scene& s, Pipeline&, double) {
 }
 bool decode_normal_maps(Scene& s, Pipeline&, double) {
   return change_normal_maps(s, [](Texture& t) {
-    if (!of_codes(t)) return false;
+    if (!has_codes(t)) return false;
     t.format = t.format == TextureFormat::rgba8 ? TextureFormat::srgb8_a8 : TextureFormat::rgba8;
     return true;
   });
@@ -251,7 +251,7 @@ Suspects factors_of_uv(const PlaneEvidence& e) {
 }
 
 using Fault = PlaneFault;
-constexpr double kScales[] = {0.25, 0.5, 1.5, 2, 4, -1};
+constexpr double kMapScales[] = {0.25, 0.5, 1.5, 2, 4, -1};
 
 constexpr PlaneFault suspected(std::string_view name, std::string_view text, bool (*edit)(Scene&, Pipeline&, const P&),
                                Suspects (*suspects)(const PlaneEvidence&), ParameterForm numbers, PlaneFault::Of of,
@@ -270,7 +270,7 @@ constexpr PlaneFault redrawn(std::string_view name, std::string_view text, bool 
 }
 constexpr auto kMaterial = Fault::Of::material;
 
-constexpr PlaneFault kFaults[] = {
+constexpr PlaneFault kMaterialFaults[] = {
     suspected("object-color", "the colour of object %s is %v times what it should be", tint_object, tinted_objects,
               {true, false, 3}, Fault::Of::object, true),
     suspected("material-color", "the colour of material %s is %v times what it should be", tint_material,
@@ -297,11 +297,11 @@ constexpr PlaneFault kFaults[] = {
      .text = "the normal maps' X and Y are %s times what they should be",
      .redraw = scale_normal_maps,
      .search = Fault::Search::one_of,
-     .starts = kScales},
+     .starts = kMapScales},
 };
 
 }  // namespace
 
-std::span<const PlaneFault> material_faults() { return kFaults; }
+std::span<const PlaneFault> material_faults() { return kMaterialFaults; }
 
 }  // namespace trueshade::oracle

@@ -7,8 +7,8 @@ namespace trueshade::oracle {
 
 namespace {
 
-constexpr size_t kMostPlaces = 1500;      ///< pixels: a sketch is drawn of them some hundred times
-constexpr size_t kMostTriangles = 20000;  ///< of the mesh
+constexpr size_t kMostPlaces = 1500;     ///< pixels: a sketch is drawn of them some hundred times
+constexpr size_t kMostOutlined = 20000;  ///< triangles of the mesh
 
 /// Whether any of the four pixels beside it shows the object, or does not.
 bool has_beside(const PlaneEvidence& evidence, int x, int y, double number, bool shows) {
@@ -34,7 +34,7 @@ std::vector<SampledPixel> outline_of(const PlaneEvidence& evidence, uint32_t obj
 }
 
 ObjectBorder::ObjectBorder(const PlaneEvidence& evidence, uint32_t object) : object_(object) {
-  if (evidence.scene.meshes[evidence.scene.instances[object].mesh].triangle_count() <= kMostTriangles)
+  if (evidence.scene.meshes[evidence.scene.instances[object].mesh].triangle_count() <= kMostOutlined)
     places_ = outline_of(evidence, object);
   if (!places_.empty())  // from where outlines are far off
     for (const EvidentPixel& p : evidence.pixels) places_.push_back(p.at);

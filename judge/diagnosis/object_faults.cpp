@@ -13,8 +13,6 @@ namespace {
 using P = FaultParameter;
 using Suspects = std::vector<FaultParameter>;
 
-glm::vec3 vec3_of(const Triple3& v) { return {float(v[0]), float(v[1]), float(v[2])}; }
-
 Instance* object_of(Scene& s, const P& p) {
   return p.number < double(s.instances.size()) ? &s.instances[size_t(p.number)] : nullptr;
 }
@@ -36,7 +34,7 @@ bool move_object(Scene& s, Pipeline&, const P& p) {
 }
 
 /// Rodrigues: by the vector's length in degrees about its direction.
-Triple3 turned(const Triple3& v, const Triple3& degrees) {
+Triple3 turned_about(const Triple3& v, const Triple3& degrees) {
   const double angle = std::sqrt(inner(degrees, degrees)) * std::acos(-1.0) / 180;
   const Triple3 axis = unit(degrees), across = cross(axis, v),
                 along = times(axis, inner(axis, v) * (1 - std::cos(angle)));
@@ -46,7 +44,8 @@ Triple3 turned(const Triple3& v, const Triple3& degrees) {
 bool turn_object(Scene& s, Pipeline&, const P& p) {
   Instance* o = object_of(s, p);
   if (o == nullptr) return false;
-  for (int c = 0; c < 3; ++c) o->world_from_object[c] = vec3_of(turned(triple(o->world_from_object[c]), p.vector));
+  for (int c = 0; c < 3; ++c)
+    o->world_from_object[c] = vec3_of(turned_about(triple(o->world_from_object[c]), p.vector));
   return p.vector != Triple3{};
 }
 
@@ -243,7 +242,7 @@ Suspects that_have_another_material(const PlaneEvidence& e) {
 }
 
 using Fault = PlaneFault;
-constexpr double kOfExtent = -3e-4;
+constexpr double kObjectChange = -3e-4;  ///< of the extent: PlaneFault::change_of
 
 constexpr PlaneFault of_object(std::string_view name, std::string_view text, bool (*edit)(Scene&, Pipeline&, const P&),
                                Suspects (*suspects)(const PlaneEvidence&), ParameterForm numbers, Fit fit = Fit::none,
@@ -259,7 +258,7 @@ constexpr PlaneFault of_object(std::string_view name, std::string_view text, boo
           .change_of = change_of};
 }
 
-constexpr PlaneFault kFaults[] = {
+constexpr PlaneFault kObjectFaults[] = {
     of_object("object-matrix-missing", "the matrix of object %s is not applied", drop_matrix, that_are_wrong,
               {true, false, 0}),
     of_object("object-wound", "the triangles of object %s are wound the other way", wind_other_way, that_are_wrong,
@@ -269,7 +268,7 @@ constexpr PlaneFault kFaults[] = {
     of_object("object-material", "object %s has material %p", other_material, that_have_another_material,
               {true, true, 0}),
     of_object("object-moved", "object %s is moved by %v", move_object, that_moved, {true, false, 3}, Fit::object,
-              kOfExtent),
+              kObjectChange),
     of_object("object-turned",
               "object %s is turned about its own origin by %v, an axis as long as the angle in degrees", turn_object,
               that_turned, {true, false, 3}, Fit::object, 0.05),
@@ -278,12 +277,12 @@ constexpr PlaneFault kFaults[] = {
     of_object("triangles-missing", "object %s lacks triangles: %v are the first and how many", drop_triangles,
               that_lack_triangles, {true, false, 2}),
     of_object("vertex-moved", "vertex %p of the mesh of object %s is moved by %v, in the object's space", move_vertex,
-              that_have_a_wrong_vertex, {true, true, 3}, Fit::object, kOfExtent),
+              that_have_a_wrong_vertex, {true, true, 3}, Fit::object, kObjectChange),
     {.name = "indices-16-bits", .text = "indices of vertices are taken modulo 65,536", .redraw = wrap_indices},
 };
 
 }  // namespace
 
-std::span<const PlaneFault> object_faults() { return kFaults; }
+std::span<const PlaneFault> object_faults() { return kObjectFaults; }
 
 }  // namespace trueshade::oracle

@@ -3,29 +3,27 @@
 #include <algorithm>
 #include <cmath>
 
+#include "judge/diagnosis/srgb_numbers.h"
+
 namespace trueshade::oracle {
 
 namespace {
 
-constexpr double kFactors[] = {0.5, 0.9, 0.99, 1.01, 1.1, 2};
 constexpr double kGammas[] = {1 / 2.4, 1 / 2.2, 1 / 1.8, 1.8, 2.2, 2.4};
 constexpr double kCeilings[] = {0.25, 0.5, 0.75, 0.9};
 constexpr double kBits[] = {3, 4, 5, 6, 7};
-constexpr double kShifts[] = {-1, 1, -2, 2, -3, 3, -4, 4};
-
-double encoded(double v) { return v <= 0 ? 0 : v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
-double decoded(double v) { return v <= 0 ? 0 : v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
+constexpr double kPictureShifts[] = {-1, 1, -2, 2, -3, 3, -4, 4};
 
 template <class Change>
 void each_of_rgb(Color& c, const Change& change) {
   for (size_t k = 0; k < 3; ++k) c[k] = change(c[k]);
 }
 
-void encode(Color& c, double, int, int) { each_of_rgb(c, encoded); }
+void encode(Color& c, double, int, int) { each_of_rgb(c, encoded_srgb); }
 void encode_twice(Color& c, double, int, int) {
-  each_of_rgb(c, [](double v) { return encoded(encoded(v)); });
+  each_of_rgb(c, [](double v) { return encoded_srgb(encoded_srgb(v)); });
 }
-void decode(Color& c, double, int, int) { each_of_rgb(c, decoded); }
+void decode(Color& c, double, int, int) { each_of_rgb(c, decoded_srgb); }
 void power(Color& c, double p, int, int) {
   each_of_rgb(c, [p](double v) { return v > 0 ? std::pow(v, p) : 0; });
 }
@@ -63,8 +61,8 @@ void invert(Color& c, double, int, int) {
   each_of_rgb(c, [](double v) { return 1 - v; });
 }
 void set_alpha(Color& c, double alpha, int, int) { c[3] = alpha; }
-void encode_alpha(Color& c, double, int, int) { c[3] = encoded(c[3]); }
-void decode_alpha(Color& c, double, int, int) { c[3] = decoded(c[3]); }
+void encode_alpha(Color& c, double, int, int) { c[3] = encoded_srgb(c[3]); }
+void decode_alpha(Color& c, double, int, int) { c[3] = decoded_srgb(c[3]); }
 /// One channel alone.
 template <size_t K>
 void expose_one(Color& c, double f, int, int) {
@@ -92,11 +90,10 @@ void turn(Move& m, double) { m.flip_x = !m.flip_x, m.flip_y = !m.flip_y; }
 void shift_x(Move& m, double pixels) { m.x += int(pixels); }
 void shift_y(Move& m, double pixels) { m.y += int(pixels); }
 
-constexpr double kAlphas[] = {0, 1};
+constexpr double kPictureAlphas[] = {0, 1};
 constexpr double kCodes[] = {-4, -3, -2, -1, 1, 2, 3, 4};
 
 bool of_floats(const LightPass& p) { return info(p.pipeline.target).number_class == NumberClass::floating; }
-bool of_codes(const LightPass& p) { return !of_floats(p); }
 /// The value before the only store is known, and a code is a step of it.
 bool shows_dither(const LightPass& p) {
   return of_codes(p) && !info(p.pipeline.target).srgb && !blends_lights(p.pipeline.strategy);
@@ -105,18 +102,15 @@ bool shows_dither(const LightPass& p) {
 /// Whether alpha can be anything but 1.
 bool has_alpha(const LightPass& p) { return p.pipeline.light_model.alpha_from_albedo; }
 
-constexpr auto kNone = Search::none;
-constexpr auto kOneOf = Search::one_of;
-
 // name, text, light, value, can, search, starts, move, doubt, reach
-constexpr PictureFault kFaults[] = {
-    {"picture-flip-y", "the picture is upside down", nullptr, nullptr, nullptr, kNone, {}, flip_y},
-    {"picture-flip-x", "the picture is mirrored, left for right", nullptr, nullptr, nullptr, kNone, {}, flip_x},
-    {"picture-turned", "the picture is turned by 180 degrees", nullptr, nullptr, nullptr, kNone, {}, turn},
-    {"picture-shift-x", "the picture is moved by %s pixels to the right", nullptr, nullptr, nullptr, kOneOf, kShifts,
-     shift_x},
-    {"picture-shift-y", "the picture is moved by %s pixels downward", nullptr, nullptr, nullptr, kOneOf, kShifts,
-     shift_y},
+constexpr PictureFault kPictureFaults[] = {
+    {"picture-flip-y", "the picture is upside down", nullptr, nullptr, nullptr, Search::none, {}, flip_y},
+    {"picture-flip-x", "the picture is mirrored, left for right", nullptr, nullptr, nullptr, Search::none, {}, flip_x},
+    {"picture-turned", "the picture is turned by 180 degrees", nullptr, nullptr, nullptr, Search::none, {}, turn},
+    {"picture-shift-x", "the picture is moved by %s pixels to the right", nullptr, nullptr, nullptr, Search::one_of,
+     kPictureShifts, shift_x},
+    {"picture-shift-y", "the picture is moved by %s pixels downward", nullptr, nullptr, nullptr, Search::one_of,
+     kPictureShifts, shift_y},
     {"picture-bgr", "the picture's channels are in the order BGR", nullptr, show<2, 1, 0, 3>},
     {"picture-grb", "the picture's channels are in the order GRB", nullptr, show<1, 0, 2, 3>},
     {"picture-rbg", "the picture's channels are in the order RBG", nullptr, show<0, 2, 1, 3>},
@@ -135,28 +129,30 @@ constexpr PictureFault kFaults[] = {
     {"picture-premultiplied", "the picture's colours are multiplied by its alpha", nullptr, premultiply, has_alpha},
     {"picture-unpremultiplied", "the picture's colours are divided by its alpha", nullptr, unpremultiply, has_alpha},
     {"picture-exposure", "the picture is %s times as bright as it should be", nullptr, expose, nullptr, Search::smooth,
-     kFactors},
+     kFirstFactors},
     {"picture-red-gain", "the picture's red is %s times as bright as it should be", nullptr, expose_one<0>, nullptr,
-     Search::smooth, kFactors, nullptr, 0.01},
+     Search::smooth, kFirstFactors, nullptr, 0.01},
     {"picture-green-gain", "the picture's green is %s times as bright as it should be", nullptr, expose_one<1>, nullptr,
-     Search::smooth, kFactors, nullptr, 0.01},
+     Search::smooth, kFirstFactors, nullptr, 0.01},
     {"picture-blue-gain", "the picture's blue is %s times as bright as it should be", nullptr, expose_one<2>, nullptr,
-     Search::smooth, kFactors, nullptr, 0.01},
+     Search::smooth, kFirstFactors, nullptr, 0.01},
     {"picture-red-missing", "the picture has no red", nullptr, leave_one_out<0>},
     {"picture-green-missing", "the picture has no green", nullptr, leave_one_out<1>},
     {"picture-blue-missing", "the picture has no blue", nullptr, leave_one_out<2>},
     {"picture-grey", "the picture is grey", nullptr, make_grey},
     {"picture-saturation", "the picture's colours are %s times as far from grey as they should be", nullptr, saturate,
-     nullptr, Search::smooth, kFactors, nullptr, 0.01},
+     nullptr, Search::smooth, kFirstFactors, nullptr, 0.01},
     {"picture-ceiling", "the picture holds nothing above %s", nullptr, cut_off, nullptr, Search::smooth, kCeilings,
      nullptr, 0.01},
     {"picture-tone-mapped", "the picture is tone-mapped by x / (1 + x)", nullptr, map_tones},
     {"picture-clamped", "the picture is clamped to [0, 1]", nullptr, clamp_to_one, of_floats},
     {"picture-inverted", "the picture shows 1 - x", nullptr, invert},
-    {"picture-bits", "the picture keeps %s bits a channel", nullptr, cut_bits, of_codes, kOneOf, kBits, nullptr, 0.01},
-    {"picture-offset", "a constant of %s / 255 is added to the picture", nullptr, raise, nullptr, kOneOf, kCodes,
-     nullptr, 0.01},
-    {"picture-alpha", "the picture's alpha is %s everywhere", nullptr, set_alpha, nullptr, kOneOf, kAlphas},
+    {"picture-bits", "the picture keeps %s bits a channel", nullptr, cut_bits, of_codes, Search::one_of, kBits, nullptr,
+     0.01},
+    {"picture-offset", "a constant of %s / 255 is added to the picture", nullptr, raise, nullptr, Search::one_of,
+     kCodes, nullptr, 0.01},
+    {"picture-alpha", "the picture's alpha is %s everywhere", nullptr, set_alpha, nullptr, Search::one_of,
+     kPictureAlphas},
     {"picture-alpha-srgb-encoded", "the picture's alpha is sRGB-encoded", nullptr, encode_alpha, has_alpha},
     {"picture-alpha-srgb-decoded", "the picture's alpha is decoded as if it were sRGB", nullptr, decode_alpha,
      has_alpha},
@@ -165,7 +161,7 @@ constexpr PictureFault kFaults[] = {
      nullptr,
      nothing,
      shows_dither,
-     kNone,
+     Search::none,
      {},
      nullptr,
      0.05,
@@ -174,6 +170,6 @@ constexpr PictureFault kFaults[] = {
 
 }  // namespace
 
-std::span<const PictureFault> picture_value_faults() { return kFaults; }
+std::span<const PictureFault> picture_value_faults() { return kPictureFaults; }
 
 }  // namespace trueshade::oracle

@@ -14,21 +14,18 @@ namespace trueshade::oracle {
 namespace {
 
 // Shares of the pixels that are not as they should be.
-constexpr double kNamed = 1.0 / 3;                       ///< that a finding explains at least
-constexpr double kParameterCost = 0.004;                 ///< what a parameter must earn
+constexpr double kPictureParameterCost = 0.004;          ///< what a parameter must earn
 constexpr double kWholeCost = 0.001;                     ///< and one of some whole numbers
-constexpr double kRival = 0.04;                          ///< that a lesser finding may cost more than the best
-constexpr double kPairGain = 0.55;                       ///< of a single fault's cost, that two may cost at most
+constexpr double kPictureRival = 0.04;                   ///< that a lesser finding may cost more than the best
+constexpr double kPicturePairGain = 0.55;                ///< of a single fault's cost, that two may cost at most
 constexpr double kLeastGain = 0.02;                      ///< and that a second fault must earn
-constexpr double kLeastChanged = 8;                      ///< pixels below which there is nothing to explain
 constexpr double kNearOne = 0.015;                       ///< factors that change values by about a code
 constexpr double kLeftByFew = 0.25, kLeftByTwo = 0.175;  ///< of what disagrees, that such a factor may leave
-constexpr size_t kFirstOfPairs = 5, kFinalists = 8;
-constexpr double kFarOff = 1.5;        ///< steps, beyond what sums in another order and estimates leave
+constexpr size_t kFirstOfPicturePairs = 5;
 constexpr double kByEstimates = 0.05;  ///< where a light ends by an estimate pixels are far off
-constexpr size_t kFew = 3;             ///< pixels so far off that may be by chance
+constexpr size_t kFarByChance = 3;     ///< pixels so far off that may be by chance
 
-struct Candidate {
+struct PictureCandidate {
   std::vector<NamedFault> faults;
   Disagreement found;
   double cost = 0;  ///< with what parameters and doubts cost, of the changed pixels
@@ -48,7 +45,7 @@ double parameter_cost(Search search) {
     case Search::smooth:
     case Search::one_light:
     case Search::vector:
-      return kParameterCost;
+      return kPictureParameterCost;
     default:
       return kWholeCost;
   }
@@ -91,18 +88,21 @@ class PictureSearch {
  private:
   std::vector<double> off(const std::vector<SampledPixel>& pixels) const;
   PictureSupposition supposed(std::span<const NamedFault> faults) const;
-  Candidate judged(std::vector<NamedFault> faults, bool all) const { return judged(faults, supposed(faults), all); }
-  Candidate judged(std::vector<NamedFault> faults, const PictureSupposition& supposed, bool all) const;
-  std::vector<Candidate> beside(std::span<const NamedFault> faults) const;
-  void refine(Candidate& candidate) const;
+  PictureCandidate judged(std::vector<NamedFault> faults, bool all) const {
+    return judged(faults, supposed(faults), all);
+  }
+  PictureCandidate judged(std::vector<NamedFault> faults, const PictureSupposition& supposed, bool all) const;
+  std::vector<PictureCandidate> beside(std::span<const NamedFault> faults) const;
+  void refine(PictureCandidate& candidate) const;
   Finding finding(std::span<const NamedFault> faults, size_t which) const;
-  std::vector<Candidate> named(std::vector<Candidate> singles) const;
-  bool told_apart(const Candidate& a, const Candidate& b) const;
-  std::vector<Finding> ranked(std::vector<Candidate> singles) const;
+  std::vector<PictureCandidate> named(std::vector<PictureCandidate> singles) const;
+  bool told_apart(const PictureCandidate& a, const PictureCandidate& b) const;
+  std::vector<Finding> ranked(std::vector<PictureCandidate> singles) const;
   Proof proof(std::span<const NamedFault> faults, std::span<const NamedFault> too_few) const;
   double left(std::span<const NamedFault> faults) const;
-  bool explains(const Candidate& c) const {
-    return c.found.explained + c.found.located - c.found.contradicted >= kNamed * changed_ && c.found.cost < cost_;
+  bool explains(const PictureCandidate& c) const {
+    return c.found.explained + c.found.located - c.found.contradicted >= kLeastExplained * changed_ &&
+           c.found.cost < cost_;
   }
 
   PictureCase& picture_;
@@ -124,8 +124,9 @@ PictureSupposition PictureSearch::supposed(std::span<const NamedFault> faults) c
   return s;
 }
 
-Candidate PictureSearch::judged(std::vector<NamedFault> faults, const PictureSupposition& supposed, bool all) const {
-  Candidate c;
+PictureCandidate PictureSearch::judged(std::vector<NamedFault> faults, const PictureSupposition& supposed,
+                                       bool all) const {
+  PictureCandidate c;
   c.found = picture_.disagreement(supposed, all ? picture_.sample() : picture_.few(), all ? off_ : off_few_);
   c.cost = c.found.cost / (all ? changed_ : changed_few_);
   for (const NamedFault& f : faults) {
@@ -137,11 +138,11 @@ Candidate PictureSearch::judged(std::vector<NamedFault> faults, const PictureSup
 }
 
 /// Every fault beside those that are supposed, by a first look, the best first.
-std::vector<Candidate> PictureSearch::beside(std::span<const NamedFault> faults) const {
+std::vector<PictureCandidate> PictureSearch::beside(std::span<const NamedFault> faults) const {
   const std::vector<const PictureFault*> rows = all_faults();
   PictureSupposition base = supposed(faults);
   if (base.known == nullptr) base.known = std::make_shared<KnownPixels>();
-  std::vector<std::vector<Candidate>> found(rows.size());
+  std::vector<std::vector<PictureCandidate>> found(rows.size());
   parallel_for(int(rows.size()), 0, [&](int i) {
     const PictureFault& fault = *rows[size_t(i)];
     if (fault.can != nullptr && !fault.can(base.pass)) return;
@@ -157,16 +158,16 @@ std::vector<Candidate> PictureSearch::beside(std::span<const NamedFault> faults)
       found[size_t(i)].push_back(judged(std::move(together), both, false));
     }
   });
-  std::vector<Candidate> candidates;
-  for (std::vector<Candidate>& of_row : found)
-    for (Candidate& c : of_row) candidates.push_back(std::move(c));
+  std::vector<PictureCandidate> candidates;
+  for (std::vector<PictureCandidate>& of_row : found)
+    for (PictureCandidate& c : of_row) candidates.push_back(std::move(c));
   std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+                   [](const PictureCandidate& a, const PictureCandidate& b) { return a.cost < b.cost; });
   return candidates;
 }
 
 /// The parameters of two faults again, each beside the other.
-void PictureSearch::refine(Candidate& candidate) const {
+void PictureSearch::refine(PictureCandidate& candidate) const {
   for (size_t turn = 0; turn < candidate.faults.size(); ++turn) {
     NamedFault& fault = candidate.faults[turn];
     if (fault.fault->search != Search::smooth) continue;
@@ -177,7 +178,7 @@ void PictureSearch::refine(Candidate& candidate) const {
     for (const FaultParameter& parameter : likely_parameters(picture_, base, *fault.fault, picture_.few(), off_few_)) {
       std::vector<NamedFault> faults = candidate.faults;
       faults[turn].parameter = parameter;
-      Candidate better = judged(std::move(faults), false);
+      PictureCandidate better = judged(std::move(faults), false);
       if (better.cost < candidate.cost) candidate = std::move(better);
     }
   }
@@ -220,8 +221,8 @@ double PictureSearch::left(std::span<const NamedFault> faults) const {
     const Search s = f.fault->search;
     return s == Search::smooth || s == Search::vector || s == Search::one_light;
   };
-  const bool by_chance =
-      pixels < kFew || (weight < kByEstimates * changed_ && std::any_of(faults.begin(), faults.end(), estimated));
+  const bool by_chance = pixels < kFarByChance ||
+                         (weight < kByEstimates * changed_ && std::any_of(faults.begin(), faults.end(), estimated));
   return by_chance ? 0 : weight / changed_;
 }
 
@@ -229,7 +230,7 @@ double PictureSearch::left(std::span<const NamedFault> faults) const {
 Finding PictureSearch::finding(std::span<const NamedFault> faults, size_t which) const {
   const NamedFault& fault = faults[which];
   const auto up_to_it = faults.first(which + 1), before = faults.first(which);
-  const Candidate together = judged({up_to_it.begin(), up_to_it.end()}, true);
+  const PictureCandidate together = judged({up_to_it.begin(), up_to_it.end()}, true);
   Finding f;
   f.name = name_of(*fault.fault, fault.parameter), f.plane = "picture", f.text = text_of(*fault.fault, fault.parameter);
   f.changed = uint64_t(std::llround(changed_));
@@ -251,7 +252,7 @@ std::vector<Finding> PictureSearch::findings(std::span<const NamedFault> faults)
 
 /// Whether half of what it explains may be chance: where values are off by a code, any factor near 1 is right for many.
 /// Two explain more by chance than one.
-bool explains_by_chance(const Candidate& c, double cost_of_right) {
+bool explains_by_chance(const PictureCandidate& c, double cost_of_right) {
   const auto near_one = [](const NamedFault& f) {
     return f.fault->search == Search::smooth && std::fabs(f.parameter.number - 1) < kNearOne;
   };
@@ -261,20 +262,20 @@ bool explains_by_chance(const Candidate& c, double cost_of_right) {
 
 /// Of single faults those that may be named, ranked. Dithering explains what is off by a code: it comes after every
 /// fault that predicts values.
-std::vector<Candidate> PictureSearch::named(std::vector<Candidate> singles) const {
-  std::erase_if(singles, [&](const Candidate& c) { return !explains(c) || explains_by_chance(c, cost_); });
-  std::stable_sort(singles.begin(), singles.end(), [](const Candidate& a, const Candidate& b) {
+std::vector<PictureCandidate> PictureSearch::named(std::vector<PictureCandidate> singles) const {
+  std::erase_if(singles, [&](const PictureCandidate& c) { return !explains(c) || explains_by_chance(c, cost_); });
+  std::stable_sort(singles.begin(), singles.end(), [](const PictureCandidate& a, const PictureCandidate& b) {
     const bool dither_a = a.faults[0].fault->reach > 0, dither_b = b.faults[0].fault->reach > 0;
     return dither_a != dither_b ? dither_b : a.cost < b.cost;
   });
   if (singles.empty()) return singles;
-  const double most = singles.front().cost + kRival;
-  std::erase_if(singles, [&](const Candidate& c) { return c.cost > most; });
+  const double most = singles.front().cost + kPictureRival;
+  std::erase_if(singles, [&](const PictureCandidate& c) { return c.cost > most; });
   return singles;
 }
 
 /// Whether any pixel of the sample tells which of two it is.
-bool PictureSearch::told_apart(const Candidate& a, const Candidate& b) const {
+bool PictureSearch::told_apart(const PictureCandidate& a, const PictureCandidate& b) const {
   const PictureSupposition one = supposed(a.faults), other = supposed(b.faults);
   if (one.stale > 0 || other.stale > 0) return true;
   std::atomic<bool> differs = false;
@@ -286,10 +287,10 @@ bool PictureSearch::told_apart(const Candidate& a, const Candidate& b) const {
 }
 
 /// The first with those that no pixel tells from it, one by each name, and then the others.
-std::vector<Finding> PictureSearch::ranked(std::vector<Candidate> singles) const {
+std::vector<Finding> PictureSearch::ranked(std::vector<PictureCandidate> singles) const {
   std::vector<Finding> first, others;
   std::vector<const PictureFault*> said;
-  for (const Candidate& c : singles) {
+  for (const PictureCandidate& c : singles) {
     const bool is_tied = !first.empty() && !told_apart(singles.front(), c);
     if (is_tied && std::find(said.begin(), said.end(), c.faults[0].fault) != said.end()) continue;
     std::vector<Finding>& list = first.empty() || is_tied ? first : others;
@@ -301,25 +302,25 @@ std::vector<Finding> PictureSearch::ranked(std::vector<Candidate> singles) const
 }
 
 std::vector<Finding> PictureSearch::look() const {
-  const auto by_cost = [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; };
+  const auto by_cost = [](const PictureCandidate& a, const PictureCandidate& b) { return a.cost < b.cost; };
   const auto unproved = [](const Finding& f) { return f.proof.plane.empty(); };
-  std::vector<Candidate> singles = beside({});
+  std::vector<PictureCandidate> singles = beside({});
   if (singles.empty()) return {};
   // Two faults: each of the likeliest with any other beside it.
-  std::vector<Candidate> pairs;
+  std::vector<PictureCandidate> pairs;
   if (singles.front().cost > 0.02)
-    for (size_t i = 0; i < std::min(kFirstOfPairs, singles.size()); ++i) {
-      std::vector<Candidate> both = beside(singles[i].faults);
+    for (size_t i = 0; i < std::min(kFirstOfPicturePairs, singles.size()); ++i) {
+      std::vector<PictureCandidate> both = beside(singles[i].faults);
       both.resize(std::min<size_t>(both.size(), 2));
-      for (Candidate& c : both) refine(c), pairs.push_back(std::move(c));
+      for (PictureCandidate& c : both) refine(c), pairs.push_back(std::move(c));
     }
   singles.resize(std::min(kFinalists, singles.size()));
-  for (Candidate& c : singles) c = judged(c.faults, true);
-  for (Candidate& c : pairs) c = judged(c.faults, true);
+  for (PictureCandidate& c : singles) c = judged(c.faults, true);
+  for (PictureCandidate& c : pairs) c = judged(c.faults, true);
   std::stable_sort(pairs.begin(), pairs.end(), by_cost);
   const double best = std::min_element(singles.begin(), singles.end(), by_cost)->cost;
-  if (!pairs.empty() && pairs.front().cost < std::min(kPairGain * best, best - kLeastGain) && explains(pairs.front()) &&
-      !explains_by_chance(pairs.front(), cost_)) {
+  if (!pairs.empty() && pairs.front().cost < std::min(kPicturePairGain * best, best - kLeastGain) &&
+      explains(pairs.front()) && !explains_by_chance(pairs.front(), cost_)) {
     std::vector<Finding> both = findings(pairs.front().faults);
     if (std::none_of(both.begin(), both.end(), unproved)) return both;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "judge/diagnosis/reread_depth.h"
+#include "judge/diagnosis/srgb_numbers.h"
 #include "judge/diagnosis/view_axes.h"
 #include "oracle/camera_view.h"
 
@@ -17,8 +18,6 @@ using Context = PlaneContext;
 double inner3(const V3& a, const V3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 V3 rotated(const Context& c, const V3& v) { return {inner3(c.view[0], v), inner3(c.view[1], v), inner3(c.view[2], v)}; }
 V3 from_eye(const Context& c, const V3& p) { return {p[0] - c.eye[0], p[1] - c.eye[1], p[2] - c.eye[2]}; }
-double encoded_srgb(double v) { return v <= 0 ? 0 : v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
-double decoded_srgb(double v) { return v <= 0 ? 0 : v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
 
 // --- depth
 // ------------------------------------------------------------------------------------------------------------
@@ -242,23 +241,21 @@ void flip_columns(PlaneMove& m, double) { m.flip_x = !m.flip_x; }
 void shift_right(PlaneMove& m, double pixels) { m.x += int(pixels); }
 void shift_down(PlaneMove& m, double pixels) { m.y += int(pixels); }
 
-constexpr double kShifts[] = {-1, 1, -2, 2}, kOffsets[] = {-1, 1}, kDepthBits[] = {8, 10, 12, 16, 24},
-                 kAlphas[] = {0, 1}, kThirds[] = {0, 0.5, 1}, kNormalBits[] = {8, 10}, kCodeBits[] = {8, 10, 16},
-                 kFactors[] = {0.25, 0.5, 0.8, 0.9, 0.97, 1.03, 1.1, 1.25, 2, 4}, kPowers[] = {0.45, 0.7, 1.4, 2.2},
-                 kPlaneFactors[] = {0.1, 0.2, 0.5, 0.8, 0.95, 1.05, 1.25, 2, 5, 10};
-
-using Fault = PlaneFault;
-constexpr auto kOneOf = Fault::Search::one_of, kSmooth = Fault::Search::smooth;
+constexpr double kPlaneShifts[] = {-1, 1, -2, 2}, kOffsets[] = {-1, 1}, kDepthBits[] = {8, 10, 12, 16, 24},
+                 kPlaneAlphas[] = {0, 1}, kThirds[] = {0, 0.5, 1}, kNormalBits[] = {8, 10}, kCodeBits[] = {8, 10, 16},
+                 kScaleFactors[] = {0.25, 0.5, 0.8, 0.9, 0.97, 1.03, 1.1, 1.25, 2, 4},
+                 kPowers[] = {0.45, 0.7, 1.4, 2.2},
+                 kPositionPlaneFactors[] = {0.1, 0.2, 0.5, 0.8, 0.95, 1.05, 1.25, 2, 5, 10};
 
 // name, text, plane, change, redraw, move, search, starts, doubt, reach
-constexpr PlaneFault kFaults[] = {
+constexpr PlaneFault kPlaneFaults[] = {
     {"gbuffer-flip-y", "every plane of the G-buffer is upside down", Plane::all, nullptr, nullptr, flip_rows},
     {"gbuffer-flip-x", "every plane of the G-buffer is mirrored, left for right", Plane::all, nullptr, nullptr,
      flip_columns},
     {"gbuffer-shift-x", "every plane of the G-buffer is moved by %s pixels to the right", Plane::all, nullptr, nullptr,
-     shift_right, kOneOf, kShifts},
+     shift_right, kOneOf, kPlaneShifts},
     {"gbuffer-shift-y", "every plane of the G-buffer is moved by %s pixels downward", Plane::all, nullptr, nullptr,
-     shift_down, kOneOf, kShifts},
+     shift_down, kOneOf, kPlaneShifts},
     {"depth-flip-y", "the depths are upside down", Plane::depth, nullptr, nullptr, flip_rows},
     {"position-flip-y", "the positions are upside down", Plane::position, nullptr, nullptr, flip_rows},
     {"normal-flip-y", "the normals are upside down", Plane::normal, nullptr, nullptr, flip_rows},
@@ -269,21 +266,21 @@ constexpr PlaneFault kFaults[] = {
     {"normal-flip-x", "the normals are mirrored", Plane::normal, nullptr, nullptr, flip_columns},
     {"albedo-flip-x", "the albedo is mirrored", Plane::albedo, nullptr, nullptr, flip_columns},
     {"depth-shift-x", "the depths are moved by %s pixels to the right", Plane::depth, nullptr, nullptr, shift_right,
-     kOneOf, kShifts},
+     kOneOf, kPlaneShifts},
     {"position-shift-x", "the positions are moved by %s pixels to the right", Plane::position, nullptr, nullptr,
-     shift_right, kOneOf, kShifts},
+     shift_right, kOneOf, kPlaneShifts},
     {"normal-shift-x", "the normals are moved by %s pixels to the right", Plane::normal, nullptr, nullptr, shift_right,
-     kOneOf, kShifts},
+     kOneOf, kPlaneShifts},
     {"albedo-shift-x", "the albedo is moved by %s pixels to the right", Plane::albedo, nullptr, nullptr, shift_right,
-     kOneOf, kShifts},
+     kOneOf, kPlaneShifts},
     {"depth-shift-y", "the depths are moved by %s pixels downward", Plane::depth, nullptr, nullptr, shift_down, kOneOf,
-     kShifts},
+     kPlaneShifts},
     {"position-shift-y", "the positions are moved by %s pixels downward", Plane::position, nullptr, nullptr, shift_down,
-     kOneOf, kShifts},
+     kOneOf, kPlaneShifts},
     {"normal-shift-y", "the normals are moved by %s pixels downward", Plane::normal, nullptr, nullptr, shift_down,
-     kOneOf, kShifts},
+     kOneOf, kPlaneShifts},
     {"albedo-shift-y", "the albedo is moved by %s pixels downward", Plane::albedo, nullptr, nullptr, shift_down, kOneOf,
-     kShifts},
+     kPlaneShifts},
     {"depth-reversed", "the depths are reversed: 1 - z", Plane::depth, depth_reversed},
     {"depth-ndc", "the depths are in [-1, 1] where [0, 1] is due", Plane::depth, depth_to_ndc},
     {"depth-halved", "the depths are z / 2 + 1/2: taken from [-1, 1] once too often", Plane::depth, depth_from_ndc},
@@ -293,7 +290,7 @@ constexpr PlaneFault kFaults[] = {
     {"depth-ray", "the depths are distances from the eye", Plane::depth, depth_of_ray},
     {"depth-cleared-to-zero", "the depth is 0 where nothing is drawn", Plane::depth, depth_cleared_to_zero},
     {"depth-bias", "%s is added to the depths", Plane::depth, depth_offset, nullptr, nullptr,
-     Fault::Search::depth_offset},
+     PlaneFault::Search::depth_offset},
     {"depth-bits", "the depths have %s bits", Plane::depth, depth_rounded, nullptr, nullptr, kOneOf, kDepthBits},
     {"normal-halved", "the normals are stored as n / 2 + 1/2, and not decoded", Plane::normal, normal_halved},
     {"normal-octahedral", "the normals are octahedral, and not decoded", Plane::normal, normal_octahedral},
@@ -311,7 +308,7 @@ constexpr PlaneFault kFaults[] = {
      normal_unit,
      nullptr,
      nullptr,
-     Fault::Search::none,
+     PlaneFault::Search::none,
      {},
      0.002},
     {"normal-unnormalised",
@@ -320,13 +317,13 @@ constexpr PlaneFault kFaults[] = {
      normal_unscaled,
      nullptr,
      nullptr,
-     Fault::Search::none,
+     PlaneFault::Search::none,
      {},
      0,
      0},
     {"normal-doubled", "the normals are 2 n - 1: decoded once too often", Plane::normal, normal_doubled},
     {"normal-scaled", "the normals are %s times as long as they should be", Plane::normal, normal_scaled, nullptr,
-     nullptr, kSmooth, kFactors},
+     nullptr, kSmooth, kScaleFactors},
     {"normal-unorm-as-snorm", "the normals' codes of %s bits are unsigned, and taken for signed ones", Plane::normal,
      normal_as_signed, nullptr, nullptr, kOneOf, kCodeBits},
     {"normal-snorm-as-unorm", "the normals' codes of %s bits are signed, and taken for unsigned ones", Plane::normal,
@@ -342,11 +339,11 @@ constexpr PlaneFault kFaults[] = {
     {"position-z-turned", "the positions' Z has the wrong sign", Plane::position, position_mirrored},
     {"position-xzy", "the positions' components are in the order XZY", Plane::position, position_swapped},
     {"position-near", "the positions are rebuilt from depths with a near plane %s times as far as it is",
-     Plane::position, position_by_near, nullptr, nullptr, kSmooth, kPlaneFactors},
+     Plane::position, position_by_near, nullptr, nullptr, kSmooth, kPositionPlaneFactors},
     {"position-far", "the positions are rebuilt from depths with a far plane %s times as far as it is", Plane::position,
-     position_by_far, nullptr, nullptr, kSmooth, kPlaneFactors},
+     position_by_far, nullptr, nullptr, kSmooth, kPositionPlaneFactors},
     {"position-scaled", "the positions are %s times what they should be", Plane::position, position_scaled, nullptr,
-     nullptr, kSmooth, kFactors},
+     nullptr, kSmooth, kScaleFactors},
     {"normal-half", "the normals went through half floats", Plane::normal, normal_as_half},
     {"depth-half", "the depths went through half floats", Plane::depth, depth_as_half},
     {"position-half",
@@ -355,7 +352,7 @@ constexpr PlaneFault kFaults[] = {
      position_as_half,
      nullptr,
      nullptr,
-     Fault::Search::none,
+     PlaneFault::Search::none,
      {},
      0.01},
     {"albedo-srgb-encoded", "the albedo is sRGB-encoded", Plane::albedo, albedo_encoded},
@@ -363,13 +360,13 @@ constexpr PlaneFault kFaults[] = {
     {"albedo-premultiplied", "the albedo is multiplied by its alpha", Plane::albedo, albedo_premultiplied},
     {"albedo-bgr", "the albedo's channels are in the order BGR", Plane::albedo, albedo_bgr},
     {"albedo-scaled", "the albedo is %s times what it should be", Plane::albedo, albedo_scaled, nullptr, nullptr,
-     kSmooth, kFactors},
+     kSmooth, kScaleFactors},
     {"albedo-gamma", "the albedo is raised to the power of %s", Plane::albedo, albedo_powered, nullptr, nullptr,
      kSmooth, kPowers, 0.002},
     {"albedo-alpha-srgb-encoded", "the albedo's alpha is sRGB-encoded", Plane::albedo, alpha_encoded},
     {"albedo-alpha-srgb-decoded", "the albedo's alpha is decoded as if it were sRGB", Plane::albedo, alpha_decoded},
     {"albedo-alpha", "the albedo's alpha is %s everywhere", Plane::albedo, albedo_alpha, nullptr, nullptr, kOneOf,
-     kAlphas},
+     kPlaneAlphas},
     {"uv-flipped", "v is 1 - v", Plane::uv, uv_flipped},
     {"uv-swapped", "u and v are exchanged", Plane::uv, uv_swapped},
     {"object-offset", "the objects' numbers are off by %s", Plane::object, object_offset, nullptr, nullptr, kOneOf,
@@ -380,7 +377,7 @@ constexpr PlaneFault kFaults[] = {
 
 }  // namespace
 
-std::span<const PlaneFault> plane_faults() { return kFaults; }
+std::span<const PlaneFault> plane_faults() { return kPlaneFaults; }
 
 PlaneContext plane_context(const Scene& scene, const Pipeline& pipeline) {
   return {scene, pipeline, view_axes(scene.camera, pipeline), view_of(scene, pipeline).eye};

@@ -81,6 +81,9 @@ struct PlaneFault {
   bool redraws() const { return redraw != nullptr || edit != nullptr || sample != nullptr; }
 };
 
+// The searches that tables name most.
+inline constexpr auto kOneOf = PlaneFault::Search::one_of, kSmooth = PlaneFault::Search::smooth;
+
 std::span<const PlaneFault> plane_faults();     ///< plane_faults.cpp: encodings and moves
 std::span<const PlaneFault> gloss_faults();     ///< gloss_faults.cpp: encodings of what materials reflect and emit
 std::span<const PlaneFault> redraw_faults();    ///< redraw_faults.cpp: states and scenes

@@ -10,14 +10,14 @@ namespace trueshade::oracle {
 
 namespace {
 
-constexpr double kNamed = 1.0 / 3, kParameterCost = 0.002, kRival = 0.06, kPairGain = 0.6, kLeastChanged = 8;
+constexpr double kPlaneParameterCost = 0.002, kPlaneRival = 0.06, kPlanePairGain = 0.6;
 constexpr double kExplained = 0.03;  ///< of what a G-buffer costs where nothing is wrong
-constexpr size_t kFirstOfPairs = 3, kFinalists = 8;
-constexpr double kEstimateCost = 0.01;          ///< numbers that are fitted explain more by chance
-constexpr double kFarOff = 1.5, kNearer = 0.1;  ///< steps, and of what it was off
-constexpr uint64_t kMostTriangles = 1000000;    ///< of a scene that is drawn again for every fault
+constexpr size_t kFirstOfPlanePairs = 3;
+constexpr double kEstimateCost = 0.01;               ///< numbers that are fitted explain more by chance
+constexpr double kNearer = 0.1;                      ///< of what it was off
+constexpr uint64_t kMostTrianglesRedrawn = 1000000;  ///< of a scene that is drawn again for every fault
 
-struct Candidate {
+struct PlaneCandidate {
   PlaneSupposition supposed;
   Disagreement found;
   std::array<double, kPlanes> costs{};  ///< by plane
@@ -41,10 +41,10 @@ class PlaneSearch {
 
   double changed() const { return changed_; }
   double wrong(size_t plane) const { return wrong_[plane]; }
-  std::vector<Candidate> look() const;
-  Candidate judged(PlaneSupposition supposed, bool all) const;
+  std::vector<PlaneCandidate> look() const;
+  PlaneCandidate judged(PlaneSupposition supposed, bool all) const;
   Finding finding(std::span<const NamedPlaneFault> faults, size_t which) const;
-  bool told_apart(const Candidate& a, const Candidate& b) const;
+  bool told_apart(const PlaneCandidate& a, const PlaneCandidate& b) const;
 
  private:
   /// How many pixels are not as they should be, and shares of these and of the others.
@@ -60,11 +60,11 @@ class PlaneSearch {
                  const PlaneSteps* before = nullptr) const {
     return plane_steps(planes_, supposed, pixels, before);
   }
-  std::vector<Candidate> beside(const PlaneSupposition& base, bool redraw) const;
+  std::vector<PlaneCandidate> beside(const PlaneSupposition& base, bool redraw) const;
   bool bears_on(const PlaneFault& fault) const;
   double left_of(const PlaneSupposition& supposed) const;
   bool is_astray(const PlaneSupposition& supposed, const SampledPixel& pixel) const;
-  void rank_equals(std::vector<Candidate>& singles) const;
+  void rank_equals(std::vector<PlaneCandidate>& singles) const;
   PlaneSupposition supposed(std::span<const NamedPlaneFault> faults) const;
   Share share(const PlaneSupposition& supposed, Plane plane) const;
   Proof proof(const PlaneSupposition& supposed, Plane plane, const PlaneSupposition* too_few) const;
@@ -76,10 +76,10 @@ class PlaneSearch {
   double changed_ = 0, cost_few_ = 0, cost_ = 0;
 };
 
-Candidate PlaneSearch::judged(PlaneSupposition supposed, bool all) const {
+PlaneCandidate PlaneSearch::judged(PlaneSupposition supposed, bool all) const {
   const std::vector<SampledPixel>& pixels = all ? planes_.sample() : planes_.few();
   const PlaneSteps &before = all ? off_ : off_few_, now = off(supposed, pixels, &before);
-  Candidate c;
+  PlaneCandidate c;
   for (size_t i = 0; i < pixels.size(); ++i) {
     c.found.cost += pixels[i].weight * cost(now[i]);
     if (!agrees(before[i]) && agrees(now[i])) c.found.explained += pixels[i].weight;
@@ -87,7 +87,7 @@ Candidate PlaneSearch::judged(PlaneSupposition supposed, bool all) const {
   }
   c.cost = c.found.cost / (all ? cost_ : cost_few_);
   for (const NamedPlaneFault& f : supposed.faults)
-    c.cost += f.fault->doubt + kParameterCost * f.numbers() + (f.fault->is_estimate() ? kEstimateCost : 0);
+    c.cost += f.fault->doubt + kPlaneParameterCost * f.numbers() + (f.fault->is_estimate() ? kEstimateCost : 0);
   c.supposed = std::move(supposed);
   return c;
 }
@@ -105,10 +105,10 @@ bool PlaneSearch::bears_on(const PlaneFault& fault) const {
   return changed_ >= kLeastChanged;
 }
 
-std::vector<Candidate> PlaneSearch::beside(const PlaneSupposition& base, bool redraw) const {
-  std::vector<Candidate> candidates;
+std::vector<PlaneCandidate> PlaneSearch::beside(const PlaneSupposition& base, bool redraw) const {
+  std::vector<PlaneCandidate> candidates;
   // Of an object more names than one may explain as much, and it is said that they do.
-  const auto leaves_nothing = [&](const Candidate& c) {
+  const auto leaves_nothing = [&](const PlaneCandidate& c) {
     return c.found.cost < 1e-3 * cost_few_ && c.supposed.faults.back().fault->fit != Fit::object;
   };
   const auto tries = [&](std::span<const PlaneFault> table) {
@@ -117,11 +117,11 @@ std::vector<Candidate> PlaneSearch::beside(const PlaneSupposition& base, bool re
       if (!bears_on(fault) || std::any_of(base.faults.begin(), base.faults.end(), same)) continue;
       // Where nothing is left to explain no fit can do better.
       if (fault.fit != Fit::none && std::any_of(candidates.begin(), candidates.end(), leaves_nothing)) continue;
-      std::optional<Candidate> best;
+      std::optional<PlaneCandidate> best;
       for (const FaultParameter& parameter : likely_parameters(planes_, evidence_, base, fault, off_few_)) {
         std::optional<PlaneSupposition> s = planes_.with(base, {&fault, parameter});
         if (!s) continue;
-        Candidate c = judged(std::move(*s), false);
+        PlaneCandidate c = judged(std::move(*s), false);
         if (!best || c.cost < best->cost) best = std::move(c);
       }
       if (best) candidates.push_back(std::move(*best));
@@ -129,7 +129,7 @@ std::vector<Candidate> PlaneSearch::beside(const PlaneSupposition& base, bool re
   };
   tries(plane_faults()), tries(gloss_faults());
   // A redraw costs far more than another encoding, so planes that an encoding explains are not drawn again.
-  const auto explained = [](const Candidate& c) { return c.cost < kExplained; };
+  const auto explained = [](const PlaneCandidate& c) { return c.cost < kExplained; };
   const auto needs_more = [&] { return redraw && std::none_of(candidates.begin(), candidates.end(), explained); };
   // What is estimated is estimated of captures with no other fault. Alpha tests make a redraw cost most, so theirs is
   // looked at first.
@@ -142,30 +142,30 @@ std::vector<Candidate> PlaneSearch::beside(const PlaneSupposition& base, bool re
   if (alone && needs_more()) tries(camera_faults());
   if (!masked && alone && needs_more()) tries(material_faults());
   std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+                   [](const PlaneCandidate& a, const PlaneCandidate& b) { return a.cost < b.cost; });
   return candidates;
 }
 
-std::vector<Candidate> PlaneSearch::look() const {
-  const auto by_cost = [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; };
-  const bool redraw = planes_.scene().triangle_count() <= kMostTriangles;
-  std::vector<Candidate> singles = beside(planes_.right(), redraw);
+std::vector<PlaneCandidate> PlaneSearch::look() const {
+  const auto by_cost = [](const PlaneCandidate& a, const PlaneCandidate& b) { return a.cost < b.cost; };
+  const bool redraw = planes_.scene().triangle_count() <= kMostTrianglesRedrawn;
+  std::vector<PlaneCandidate> singles = beside(planes_.right(), redraw);
   if (singles.empty()) return {};
-  std::vector<Candidate> pairs;
+  std::vector<PlaneCandidate> pairs;
   if (singles.front().cost > kExplained)
-    for (size_t i = 0; i < std::min(kFirstOfPairs, singles.size()); ++i) {
-      std::vector<Candidate> both = beside(singles[i].supposed, redraw && i == 0);
+    for (size_t i = 0; i < std::min(kFirstOfPlanePairs, singles.size()); ++i) {
+      std::vector<PlaneCandidate> both = beside(singles[i].supposed, redraw && i == 0);
       both.resize(std::min<size_t>(both.size(), 2));
-      for (Candidate& c : both) pairs.push_back(judged(std::move(c.supposed), true));
+      for (PlaneCandidate& c : both) pairs.push_back(judged(std::move(c.supposed), true));
     }
   singles.resize(std::min(kFinalists, singles.size()));
-  for (Candidate& c : singles) c = judged(std::move(c.supposed), true);
+  for (PlaneCandidate& c : singles) c = judged(std::move(c.supposed), true);
   std::stable_sort(singles.begin(), singles.end(), by_cost);
   std::stable_sort(pairs.begin(), pairs.end(), by_cost);
-  const auto explains = [&](const Candidate& c) {
-    return c.found.explained - c.found.contradicted >= kNamed * changed_ && c.found.cost < cost_;
+  const auto explains = [&](const PlaneCandidate& c) {
+    return c.found.explained - c.found.contradicted >= kLeastExplained * changed_ && c.found.cost < cost_;
   };
-  if (!pairs.empty() && pairs.front().cost < kPairGain * singles.front().cost && explains(pairs.front())) {
+  if (!pairs.empty() && pairs.front().cost < kPlanePairGain * singles.front().cost && explains(pairs.front())) {
     // What explains more by itself comes first.
     std::vector<NamedPlaneFault>& faults = pairs.front().supposed.faults;
     const auto alone = [&](const NamedPlaneFault& f) { return share(supposed({&f, 1}), Plane::all).explained; };
@@ -173,10 +173,10 @@ std::vector<Candidate> PlaneSearch::look() const {
     return {std::move(pairs.front())};
   }
   rank_equals(singles);
-  const double most = singles.front().cost + kRival;
-  singles.erase(
-      std::remove_if(singles.begin(), singles.end(), [&](const Candidate& c) { return !explains(c) || c.cost > most; }),
-      singles.end());
+  const double most = singles.front().cost + kPlaneRival;
+  singles.erase(std::remove_if(singles.begin(), singles.end(),
+                               [&](const PlaneCandidate& c) { return !explains(c) || c.cost > most; }),
+                singles.end());
   return singles;
 }
 
@@ -233,18 +233,18 @@ double PlaneSearch::left_of(const PlaneSupposition& supposed) const {
 }
 
 /// Those that cost about as little as the first by what they leave.
-void PlaneSearch::rank_equals(std::vector<Candidate>& singles) const {
+void PlaneSearch::rank_equals(std::vector<PlaneCandidate>& singles) const {
   constexpr double kSameCost = 1e-4;
   size_t equals = 1;
   while (equals < singles.size() && singles[equals].cost < singles[0].cost + kSameCost) ++equals;
   for (size_t i = 0; equals > 1 && i < equals; ++i) singles[i].left = left_of(singles[i].supposed);
   std::stable_sort(singles.begin(), singles.begin() + ptrdiff_t(equals),
-                   [](const Candidate& a, const Candidate& b) { return a.left < b.left; });
+                   [](const PlaneCandidate& a, const PlaneCandidate& b) { return a.left < b.left; });
 }
 
 /// Whether pixels or the count of numbers tell which of two it is.
-bool PlaneSearch::told_apart(const Candidate& a, const Candidate& b) const {
-  const auto numbers = [](const Candidate& c) {
+bool PlaneSearch::told_apart(const PlaneCandidate& a, const PlaneCandidate& b) const {
+  const auto numbers = [](const PlaneCandidate& c) {
     int sum = 0;
     for (const NamedPlaneFault& f : c.supposed.faults) sum += f.numbers();
     return sum;
@@ -343,7 +343,7 @@ PlaneFindings plane_findings(const Scene& scene, const Pipeline& pipeline, const
   for (size_t k = 0; k < kPlanes; ++k) out.wrong[k] = search.wrong(k) >= kLeastChanged;
   if (search.changed() < kLeastChanged) return out;
   out.expected = planes.expected();
-  std::vector<Candidate> found;
+  std::vector<PlaneCandidate> found;
   if (only.empty()) {
     found = search.look();
   } else {
@@ -352,7 +352,7 @@ PlaneFindings plane_findings(const Scene& scene, const Pipeline& pipeline, const
       if (std::optional<PlaneSupposition> s = planes.with(supposed, f)) supposed = std::move(*s);
     if (!supposed.faults.empty()) found.push_back(search.judged(std::move(supposed), true));
   }
-  for (const Candidate& c : found) {
+  for (const PlaneCandidate& c : found) {
     std::vector<Finding> named;
     for (size_t i = 0; i < c.supposed.faults.size(); ++i) named.push_back(search.finding(c.supposed.faults, i));
     const auto unproved = [](const Finding& f) { return f.proof.plane.empty(); };

@@ -6,6 +6,7 @@
 
 #include "core/threads/parallel_for.h"
 #include "judge/bounds/program_bounds.h"
+#include "judge/diagnosis/disagreement.h"
 #include "judge/diagnosis/plain_program.h"
 #include "judge/diagnosis/program_edits.h"
 #include "judge/stages/captured_surface.h"
@@ -18,9 +19,8 @@ namespace {
 constexpr int kSide = 8;  // of a square, pixels
 constexpr size_t kWrongSquares = 8, kRightSquares = 3;
 constexpr size_t kMostTries = 20'000;  // with bounds; a try takes some 0.1 ms of a program of 100 operations
-constexpr double kLeastExplained = 1.0 / 3;
-constexpr double kExplanation = 0.9;  // above it, operands are not tried: they are many
-constexpr double kKnown = 1.0 / 512;  // a color that is known no better explains nothing
+constexpr double kExplanation = 0.9;   // above it, operands are not tried: they are many
+constexpr double kKnown = 1.0 / 512;   // a color that is known no better explains nothing
 
 struct Sample {
   int x = 0, y = 0;
@@ -35,7 +35,7 @@ struct Square {
 };
 
 /// What a program makes of the samples, beside what is stored.
-struct Match {
+struct ProgramMatch {
   double explained = 0, contradicted = 0;  ///< shares of the samples that are wrong, and of those that are right
   double score() const { return explained - contradicted; }
 };
@@ -56,7 +56,7 @@ class ProgramSearch {
 
   std::vector<Finding> findings(size_t most) {
     if (squares_.empty()) return {};
-    std::vector<std::pair<Match, ProgramEdit>> found;
+    std::vector<std::pair<ProgramMatch, ProgramEdit>> found;
     const std::span<const Square> first(squares_.data(), 1);
     choose_few();
     double best = 0;
@@ -76,7 +76,7 @@ class ProgramSearch {
       if (!likely[i] || match_of(edited(right_.program(), edit), first).explained < kLeastExplained / 2 ||
           !may_explain(edit, squares_))
         continue;
-      const Match match = match_of(edited(right_.program(), edit), squares_);
+      const ProgramMatch match = match_of(edited(right_.program(), edit), squares_);
       best = std::max(best, match.score());
       if (match.explained >= kLeastExplained) found.emplace_back(match, std::move(edit));
     }
@@ -180,7 +180,7 @@ class ProgramSearch {
     return true;
   }
 
-  Match match_of(programs::Program program, std::span<const Square> squares) {
+  ProgramMatch match_of(programs::Program program, std::span<const Square> squares) {
     ++tries_;
     const ProgramBounds bounds(scene_, pipeline_, profile_.arithmetic, std::move(program));
     size_t wrong = 0, right = 0, explained = 0, contradicted = 0;
@@ -346,7 +346,7 @@ class ProgramSearch {
            number_text(double(std::bit_cast<float>(bits)));
   }
 
-  Finding finding(const Match& match, const ProgramEdit& edit) {
+  Finding finding(const ProgramMatch& match, const ProgramEdit& edit) {
     Finding f;
     f.name =
         edit.is_parameter ? "light-shader-parameter-" + edit.text : "light-shader-line-" + std::to_string(edit.line);

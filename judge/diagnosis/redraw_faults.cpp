@@ -86,13 +86,13 @@ bool flat_normals(Scene&, Pipeline& p, double) {
       p.gbuffer.normal.interpolation == Interpolation::flat ? Interpolation::smooth : Interpolation::flat;
   return true;
 }
-float inner(const glm::vec3& a, const glm::vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+float inner_product(const glm::vec3& a, const glm::vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 /// A rotation, and one scale: normals keep one length.
 bool keeps_angles(const glm::mat4x3& m) {
-  const float size = inner(m[0], m[0]);
+  const float size = inner_product(m[0], m[0]);
   const auto near = [size](float a, float b) { return std::fabs(a - b) <= 1e-5f * size; };
-  return near(inner(m[1], m[1]), size) && near(inner(m[2], m[2]), size) && near(inner(m[0], m[1]), 0) &&
-         near(inner(m[0], m[2]), 0) && near(inner(m[1], m[2]), 0);
+  return near(inner_product(m[1], m[1]), size) && near(inner_product(m[2], m[2]), size) &&
+         near(inner_product(m[0], m[1]), 0) && near(inner_product(m[0], m[2]), 0) && near(inner_product(m[1], m[2]), 0);
 }
 /// Normals of one length that the fragment shader makes unit are `normal-unit`, which says more.
 bool make_unit_at(Scene& s, Pipeline& p, double shader) {
@@ -229,7 +229,7 @@ bool normals_by_matrix(Scene& s, Pipeline&, double) {
     for (size_t i = 0; i < mesh.vertex_count(); ++i) {
       const glm::vec3 n(mesh.normal[0][i], mesh.normal[1][i], mesh.normal[2][i]);
       const glm::vec3 world = m[0] * n.x + m[1] * n.y + m[2] * n.z;
-      for (size_t k = 0; k < 3; ++k) mesh.normal[k][i] = inner(m[int(k)], world);
+      for (size_t k = 0; k < 3; ++k) mesh.normal[k][i] = inner_product(m[int(k)], world);
     }
     instance.mesh = uint32_t(s.meshes.size());
     s.meshes.push_back(std::move(mesh));
@@ -265,22 +265,19 @@ std::string wrap_name(double way) {
 }
 
 constexpr double kFaces[] = {0, 1, 2}, kFuncs[] = {1, 3, 4, 6, 7},
-                 kFormats2[] = {double(Format::d16), double(Format::d24), double(Format::d32f)},
+                 kDepthFormatNumbers[] = {double(Format::d16), double(Format::d24), double(Format::d32f)},
                  kDirectionNumbers[] = {0, 1, 2, 3, 4, 5, 6, 7}, kFilters[] = {0, 1, 2, 3, 4, 5, 6},
-                 kBiases[] = {-2, -1, -0.5, 0.5, 1, 2}, kWraps[] = {0, 1, 2}, kOffsets2[] = {-2, -1, 1, 2},
+                 kBiases[] = {-2, -1, -0.5, 0.5, 1, 2}, kWraps[] = {0, 1, 2}, kPolygonOffsets[] = {-2, -1, 1, 2},
                  kNoPerspective[] = {2}, kShaders[] = {0, 1, 2}, kAnisotropies[] = {2, 4, 8, 16};
 
-using Fault2 = PlaneFault;
-constexpr auto kOne = Fault2::Search::one_of;
-
 // name, text, plane, change, redraw, move, search, starts, doubt, reach, says
-constexpr PlaneFault kFaults2[] = {
-    {"cull-face", "the face culled is `%s`", Plane::all, nullptr, cull, nullptr, kOne, kFaces, 0, 0, face_name},
+constexpr PlaneFault kRedrawFaults[] = {
+    {"cull-face", "the face culled is `%s`", Plane::all, nullptr, cull, nullptr, kOneOf, kFaces, 0, 0, face_name},
     {"front-face", "the front is taken for the back", Plane::all, nullptr, turn_front},
-    {"depth-func", "the depth test is `%s`", Plane::all, nullptr, compare, nullptr, kOne, kFuncs, 0, 0, func_name},
-    {"depth-format", "the depth buffer is %s", Plane::all, nullptr, hold_depth, nullptr, kOne, kFormats2, 0, 0,
-     format_name},
-    {"half-pixel", "the picture is drawn half a pixel %s", Plane::all, nullptr, half_a_pixel, nullptr, kOne,
+    {"depth-func", "the depth test is `%s`", Plane::all, nullptr, compare, nullptr, kOneOf, kFuncs, 0, 0, func_name},
+    {"depth-format", "the depth buffer is %s", Plane::all, nullptr, hold_depth, nullptr, kOneOf, kDepthFormatNumbers, 0,
+     0, format_name},
+    {"half-pixel", "the picture is drawn half a pixel %s", Plane::all, nullptr, half_a_pixel, nullptr, kOneOf,
      kDirectionNumbers, 0, 0, direction_name},
     {"left-handed", "the camera is left-handed: x runs to the left", Plane::all, nullptr, left_handed},
     {"upside-down",
@@ -289,30 +286,31 @@ constexpr PlaneFault kFaults2[] = {
      nullptr,
      draw_upside_down,
      nullptr,
-     Fault2::Search::none,
+     PlaneFault::Search::none,
      {},
      0.01},
     {"clip-depth", "clip space is taken for the other range of z", Plane::all, nullptr, clip_depth},
     {"depth-clamp", "near and far clip where they should not, or do not where they should", Plane::all, nullptr,
      clamp_depth},
-    {"polygon-offset", "a polygon offset of %s is on", Plane::all, nullptr, offset_depth, nullptr, kOne, kOffsets2},
-    {"interpolation", "attributes are interpolated `%s`", Plane::all, nullptr, interpolate, nullptr, kOne,
+    {"polygon-offset", "a polygon offset of %s is on", Plane::all, nullptr, offset_depth, nullptr, kOneOf,
+     kPolygonOffsets},
+    {"interpolation", "attributes are interpolated `%s`", Plane::all, nullptr, interpolate, nullptr, kOneOf,
      kNoPerspective, 0, 0, way_name},
     {"normal-flat", "normals are flat where smooth ones are due, or smooth where flat ones are", Plane::all, nullptr,
      flat_normals},
-    {"normal-unit-shader", "normals are made unit length by %s", Plane::normal, nullptr, make_unit_at, nullptr, kOne,
+    {"normal-unit-shader", "normals are made unit length by %s", Plane::normal, nullptr, make_unit_at, nullptr, kOneOf,
      kShaders, 0, 0, shader_name},
     {"provoking-vertex", "the other vertex provokes", Plane::all, nullptr, provoke},
-    {"texture-filter", "textures are filtered `%s`", Plane::all, nullptr, filter, nullptr, kOne, kFilters, 0, 0,
+    {"texture-filter", "textures are filtered `%s`", Plane::all, nullptr, filter, nullptr, kOneOf, kFilters, 0, 0,
      filter_name},
-    {"texture-lod-bias", "the textures' level of detail is off by %s", Plane::all, nullptr, bias_lod, nullptr, kOne,
+    {"texture-lod-bias", "the textures' level of detail is off by %s", Plane::all, nullptr, bias_lod, nullptr, kOneOf,
      kBiases},
     {.name = "texture-anisotropy",
      .text = "an anisotropic filter of up to %s lookups is on",
-     .search = kOne,
+     .search = kOneOf,
      .starts = kAnisotropies,
      .sample = filter_anisotropically},
-    {"texture-wrap", "textures wrap by `%s`", Plane::all, nullptr, wrap, nullptr, kOne, kWraps, 0, 0, wrap_name},
+    {"texture-wrap", "textures wrap by `%s`", Plane::all, nullptr, wrap, nullptr, kOneOf, kWraps, 0, 0, wrap_name},
     {"texture-flip-v", "the textures are upside down", Plane::all, nullptr, turn_textures},
     {"texture-srgb", "colour maps are decoded as sRGB where they are linear, or taken as linear where they are sRGB",
      Plane::all, nullptr, recode_textures},
@@ -322,7 +320,7 @@ constexpr PlaneFault kFaults2[] = {
     {"double-sided", "materials are of two sides that should be of one, or of one that should be of two", Plane::all,
      nullptr, other_sides},
     {"texture-uv-set", "maps are read by the other set of texture coordinates", Plane::all, nullptr, other_uv_set},
-    {"object-missing", "object %s is not drawn", Plane::all, nullptr, leave_out, nullptr, Fault2::Search::object},
+    {"object-missing", "object %s is not drawn", Plane::all, nullptr, leave_out, nullptr, PlaneFault::Search::object},
     {"normal-matrix", "the normals went through the object's matrix, not through the transpose of its inverse",
      Plane::normal, nullptr, normals_by_matrix},
     {.name = "edges-averaged",
@@ -334,6 +332,6 @@ constexpr PlaneFault kFaults2[] = {
 
 }  // namespace
 
-std::span<const PlaneFault> redraw_faults() { return kFaults2; }
+std::span<const PlaneFault> redraw_faults() { return kRedrawFaults; }
 
 }  // namespace trueshade::oracle

@@ -13,7 +13,7 @@ namespace trueshade::oracle {
 namespace {
 
 /// What a parameter may be.
-struct Range {
+struct ParameterRange {
   double low = 0, high = 0;
   bool whole = false;
 };
@@ -21,7 +21,7 @@ struct Range {
 /// Of the faults whose name ends so; a fault that has several values to try, and none of these rows, takes no others.
 struct NamedRange {
   std::string_view ending;
-  Range range;
+  ParameterRange range;
 };
 constexpr double kMostShift = 16384, kMostNumbers = 65535;
 constexpr NamedRange kRanges[] = {
@@ -39,7 +39,7 @@ constexpr NamedRange kRanges[] = {
     {"polygon-offset", {-1000, 1000}},
     {"lighting-normal-rounded", {1, kMostNumbers, true}},
 };
-constexpr Range kFactors{0.001, 1000}, kDepths{-1e9, 1e9};
+constexpr ParameterRange kAnyFactor{0.001, 1000}, kAnyDepth{-1e9, 1e9};
 
 Error refused(const std::string& name, const std::string& reason, const std::string& remedy) {
   return {ErrorKind::usage, "--suppose", "'" + name + "' " + reason, remedy};
@@ -60,13 +60,13 @@ const Fault* fault_named(std::string_view name, std::initializer_list<std::span<
   return nullptr;
 }
 
-Range numbers_of(size_t count) { return {0, double(count) - 1, true}; }
+ParameterRange numbers_of(size_t count) { return {0, double(count) - 1, true}; }
 
 /// What the search looks for, where that says it; otherwise a range that is empty.
-Range range_sought(const PictureFault& fault, const Scene& scene) {
+ParameterRange range_sought(const PictureFault& fault, const Scene& scene) {
   switch (fault.search) {
     case Search::smooth:
-      return kFactors;
+      return kAnyFactor;
     case Search::missing_light:
     case Search::doubled_light:
       return numbers_of(scene.lights.size());
@@ -81,20 +81,20 @@ Range range_sought(const PictureFault& fault, const Scene& scene) {
   }
   return {1, 0};
 }
-Range range_sought(const PlaneFault& fault, const Scene& scene) {
-  if (fault.search == PlaneFault::Search::smooth) return kFactors;
+ParameterRange range_sought(const PlaneFault& fault, const Scene& scene) {
+  if (fault.search == PlaneFault::Search::smooth) return kAnyFactor;
   if (fault.search == PlaneFault::Search::object) return numbers_of(scene.instances.size());
-  return fault.search == PlaneFault::Search::depth_offset ? kDepths : Range{1, 0};
+  return fault.search == PlaneFault::Search::depth_offset ? kAnyDepth : ParameterRange{1, 0};
 }
 
 template <class Fault>
-const Range* range_listed(const Fault& fault) {
+const ParameterRange* range_listed(const Fault& fault) {
   for (const NamedRange& row : kRanges)
     if (fault.says == nullptr && fault.name.ends_with(row.ending)) return &row.range;
   return nullptr;
 }
 
-std::string text_of(const Range& range) {
+std::string text_of(const ParameterRange& range) {
   if (range.high < range.low) return "nothing here: the scene has none";
   return std::string(range.whole ? "a whole number from " : "a number from ") + parameter_text(range.low) + " to " +
          parameter_text(range.high);
@@ -110,7 +110,7 @@ double parameter_of(const Fault& fault, const Scene& scene, const std::string* t
     return refused(name, text == nullptr ? "needs its parameter after `=`" : "has a parameter that it does not take",
                    std::string(fault.name) + " takes " + taken);
   };
-  const Range* listed = range_listed(fault);
+  const ParameterRange* listed = range_listed(fault);
   if (fault.search == decltype(fault.search)::one_of && listed == nullptr) {
     std::string words;
     for (const double start : fault.starts) {
@@ -120,7 +120,7 @@ double parameter_of(const Fault& fault, const Scene& scene, const std::string* t
     }
     throw refuse(words);
   }
-  const Range range = listed != nullptr ? *listed : range_sought(fault, scene);
+  const ParameterRange range = listed != nullptr ? *listed : range_sought(fault, scene);
   const bool in_range = number >= range.low && number <= range.high;  // not a number: no
   if (is_number && in_range && (!range.whole || number == std::floor(number))) return number;
   throw refuse(text_of(range));

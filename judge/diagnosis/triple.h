@@ -13,6 +13,7 @@ inline Triple3 plus(const Triple3& a, const Triple3& b) { return {a[0] + b[0], a
 inline Triple3 minus(const Triple3& a, const Triple3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 inline Triple3 times(const Triple3& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
 inline Triple3 triple(const glm::vec3& v) { return {double(v.x), double(v.y), double(v.z)}; }
+inline glm::vec3 vec3_of(const Triple3& v) { return {float(v[0]), float(v[1]), float(v[2])}; }
 inline Triple3 cross(const Triple3& a, const Triple3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }

@@ -2,8 +2,6 @@
 // share no code. The texts are made at random, and both are given the same bits, the product's as machine code, where
 // the target has it, and interpreted.
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -56,10 +54,6 @@ Numbers outputs_of(const oracle::SpirvScalars& scalars) {
   return out;
 }
 
-bool same(uint32_t a, uint32_t b) {
-  return a == b || (std::isnan(std::bit_cast<float>(a)) && std::isnan(std::bit_cast<float>(b)));
-}
-
 struct Agreement {
   int compared = 0, refused = 0;
   uint64_t values = 0, apart = 0;
@@ -70,7 +64,7 @@ void compare(uint64_t seed, const Numbers& expected, const Numbers& given, Agree
   bool is_told = false;
   for (const auto& [name, bits] : expected) {
     ++total.values;
-    if (same(bits, given.at(name))) continue;
+    if (programs::equal_or_nan(bits, given.at(name))) continue;
     ++total.apart;
     if (!is_told)
       WARN("program " << seed << ": " << name << " is " << programs::float_of(given.at(name)) << ", the oracle's "

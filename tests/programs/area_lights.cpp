@@ -24,21 +24,22 @@ using std::numbers::pi;
 
 constexpr LightType kAreas[] = {LightType::sphere, LightType::tube, LightType::rectangle, LightType::disk};
 
-double number(RandomWords& random, double low, double high) {
+double double_between(RandomWords& random, double low, double high) {
   return low + (high - low) * (double(random()) * 0x1p-32);
 }
-dvec3 triple(RandomWords& random) {
-  const double x = number(random, -1, 1), y = number(random, -1, 1), z = number(random, -1, 1);
+dvec3 random_triple(RandomWords& random) {
+  const double x = double_between(random, -1, 1), y = double_between(random, -1, 1), z = double_between(random, -1, 1);
   return {x, y, z};
 }
-dvec3 direction(RandomWords& random) { return glm::normalize(triple(random) + dvec3(1e-3, 0, 0)); }
+dvec3 direction(RandomWords& random) { return glm::normalize(random_triple(random) + dvec3(1e-3, 0, 0)); }
 
 /// A light about the origin, of sizes over a factor of 20; tubes are thin.
-Light random_light(LightType type, RandomWords& random) {
+Light random_area_light(LightType type, RandomWords& random) {
   Light l;
   l.type = type;
   const dvec3 right = direction(random), up = glm::normalize(glm::cross(right, direction(random)));
-  const double width = std::exp(number(random, -1.5, 1.5)), height = std::exp(number(random, -1.5, 1.5));
+  const double width = std::exp(double_between(random, -1.5, 1.5)),
+               height = std::exp(double_between(random, -1.5, 1.5));
   if (type == LightType::sphere) l.right.x = float(width);
   if (type == LightType::tube) l.right = glm::vec3(right * width), l.up.x = float(0.01 * width);
   if (type == LightType::rectangle) l.right = glm::vec3(right * width), l.up = glm::vec3(up * height);
@@ -63,11 +64,11 @@ struct Surface {
 /// Half of the surfaces look at the light, of half of which the horizon cuts it.
 Surface random_surface(const Light& l, RandomWords& random) {
   Surface s;
-  s.position = dvec3(glm::vec3(triple(random) * std::exp(number(random, -1.0, 2.0))));
+  s.position = dvec3(glm::vec3(random_triple(random) * std::exp(double_between(random, -1.0, 2.0))));
   const bool looks = random() % 2 == 0;
-  s.normal = looks ? glm::normalize(dvec3(l.position) - s.position + triple(random) * glm::length(s.position))
+  s.normal = looks ? glm::normalize(dvec3(l.position) - s.position + random_triple(random) * glm::length(s.position))
                    : direction(random);
-  s.eye = s.position + 3.0 * glm::normalize(s.normal + 0.7 * triple(random));
+  s.eye = s.position + 3.0 * glm::normalize(s.normal + 0.7 * random_triple(random));
   return s;
 }
 
@@ -89,7 +90,7 @@ Numbers numbers_of(const Light& l, const Surface& s) {
   return out;
 }
 
-Program model(std::string_view name) {
+Program program_of_model(std::string_view name) {
   const LightProgram given = shipped_program(name);
   return program_from_glsl(given.file, given.text);
 }
@@ -108,13 +109,13 @@ double tube_error(const Light& l, const Surface& s) {
 }  // namespace
 
 TEST_CASE("Lambert under lights with an area is what integrals over them in double give, to 1e-5") {
-  const Program program = model("area-lambert");
+  const Program program = program_of_model("area-lambert");
   for (const LightType type : kAreas) {
     RandomWords random(uint32_t(type) + 31);
     size_t lit = 0, cut = 0;
     double worst = 0;  // in parts of what is allowed
     for (int i = 0; i < 400; ++i) {
-      const Light light = random_light(type, random);
+      const Light light = random_area_light(type, random);
       const Surface s = random_surface(light, random);
       const double wanted = form_factor(shape_of(light), s.position, s.normal), made = red(program, light, s);
       const double allowed = type == LightType::tube ? tube_error(light, s) : 1e-5;
@@ -134,16 +135,16 @@ TEST_CASE("Lambert under lights with an area is what integrals over them in doub
 /// Half of the eyes see the light mirrored, or nearly.
 Surface glossy_surface(const Light& l, bool mirrored, RandomWords& random) {
   Surface s = random_surface(l, random);
-  s.normal = glm::normalize(-s.position + 0.6 * triple(random) * glm::length(s.position));
-  const dvec3 to = glm::normalize(-s.position + 0.5 * triple(random));
+  s.normal = glm::normalize(-s.position + 0.6 * random_triple(random) * glm::length(s.position));
+  const dvec3 to = glm::normalize(-s.position + 0.5 * random_triple(random));
   const dvec3 mirror = 2.0 * glm::dot(s.normal, to) * s.normal - to;
-  s.eye = s.position + 3.0 * (mirrored ? mirror : glm::normalize(s.normal + 0.7 * triple(random)));
+  s.eye = s.position + 3.0 * (mirrored ? mirror : glm::normalize(s.normal + 0.7 * random_triple(random)));
   s.metallic = 1;
   return s;
 }
 
 TEST_CASE("GGX by a representative point is as far from the integral over the light as docs/light_programs.md says") {
-  const Program program = model("area");
+  const Program program = program_of_model("area");
   for (const auto& [type, most] : {std::pair(LightType::sphere, 0.3),
                                    {LightType::tube, 0.7},
                                    {LightType::rectangle, 0.45},
@@ -152,7 +153,7 @@ TEST_CASE("GGX by a representative point is as far from the integral over the li
       RandomWords random(uint32_t(type) + 57);
       double off = 0, all = 0, worst = 0;
       for (int i = 0; i < 250; ++i) {
-        Light light = random_light(type, random);
+        Light light = random_area_light(type, random);
         if (type == LightType::tube) light.up.x = 0.05f * glm::length(light.right);
         Surface s = glossy_surface(light, i % 2 == 0, random);
         s.roughness = roughness;
@@ -168,14 +169,14 @@ TEST_CASE("GGX by a representative point is as far from the integral over the li
 }
 
 TEST_CASE("A light whose area is small is the point light of the same intensity") {
-  const Program area = model("area"), gltf = model("gltf");
+  const Program area = program_of_model("area"), gltf = program_of_model("gltf");
   RandomWords random(91);
   for (int i = 0; i < 60; ++i) {
     Light ball;
     ball.type = LightType::sphere, ball.right.x = 0.002f;
     Surface s = random_surface(ball, random);
     s.position *= 2.0 / glm::length(s.position), s.metallic = 0.3, s.roughness = 0.6;
-    s.normal = glm::normalize(glm::normalize(-s.position) + 0.5 * triple(random));
+    s.normal = glm::normalize(glm::normalize(-s.position) + 0.5 * random_triple(random));
     Light point;
     point.color = glm::vec3(float(pi * 0.002 * 0.002));
     const double wanted = red(gltf, point, s), made = red(area, ball, s);
@@ -185,11 +186,11 @@ TEST_CASE("A light whose area is small is the point light of the same intensity"
 
 TEST_CASE("Lights with an area make no NaN and nothing negative at their centres, planes and edges") {
   for (const char* const name : {"area", "area-lambert"}) {
-    const Program program = model(name);
+    const Program program = program_of_model(name);
     for (const LightType type : kAreas) {
       RandomWords random(uint32_t(type) + 77);
       for (int i = 0; i < 60; ++i) {
-        const Light light = random_light(type, random);
+        const Light light = random_area_light(type, random);
         Surface s = random_surface(light, random);
         const double x = double(int(random() % 3)) - 1, y = double(int(random() % 3)) - 1;
         if (i % 4 != 0) s.position = dvec3(glm::vec3(dvec3(light.right) * x + dvec3(light.up) * y));

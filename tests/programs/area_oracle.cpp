@@ -159,7 +159,7 @@ struct Slice {
 };
 
 // A light in spherical coordinates about a pole. A view without breaks holds a light that cannot be seen.
-struct View {
+struct LightView {
   dvec3 pole{0.0}, first{0.0}, second{0.0};  // An orthonormal frame. Azimuths turn from first to second.
   double from = 0.0, to = 0.0;               // The range of the outer variable.
   std::function<Slice(double)> slice;        // The slice at a value of the outer variable.
@@ -168,7 +168,7 @@ struct View {
 };
 
 // Returns the azimuth of a direction in the frame of the view, in 0 .. 2 * pi.
-double azimuth_of(const View& view, const dvec3& direction) {
+double azimuth_of(const LightView& view, const dvec3& direction) {
   const double angle = std::atan2(glm::dot(direction, view.second), glm::dot(direction, view.first));
   return angle < 0.0 ? angle + 2.0 * pi : angle;
 }
@@ -180,7 +180,7 @@ dvec3 any_perpendicular(const dvec3& direction) {
 }
 
 // The outer variable is the azimuth itself: wraps the breaks into 0 .. 2 * pi.
-void use_azimuth(View& view, std::vector<double> breaks) {
+void use_azimuth(LightView& view, std::vector<double> breaks) {
   view.from = 0.0;
   view.to = 2.0 * pi;
   for (double& value : breaks) {
@@ -191,8 +191,8 @@ void use_azimuth(View& view, std::vector<double> breaks) {
 }
 
 // A sphere fills the cone of directions around its centre whose half angle has the sine radius / distance.
-View view_sphere(const AreaShape& shape, const dvec3& point, const dvec3& normal) {
-  View view;
+LightView view_sphere(const AreaShape& shape, const dvec3& point, const dvec3& normal) {
+  LightView view;
   const double distance = glm::length(shape.centre - point);
   if (distance <= shape.radius || shape.radius <= 0.0) {
     return view;
@@ -219,7 +219,7 @@ struct Plane {
 };
 
 // Sets the frame of the view for a light in a plane. Returns false if the point is not in front of the light.
-bool face_plane(const AreaShape& shape, const dvec3& point, const dvec3& normal, View& view, Plane& plane) {
+bool face_plane(const AreaShape& shape, const dvec3& point, const dvec3& normal, LightView& view, Plane& plane) {
   const dvec3 across = glm::cross(shape.up, shape.right);
   if (!(glm::length(across) > 0.0)) {
     return false;
@@ -287,8 +287,8 @@ void add_azimuth(std::vector<double>& breaks, const Plane& plane, double x, doub
 }
 
 // A rectangle has kinks at its corners and where the horizon crosses its edges.
-View view_rectangle(const AreaShape& shape, const dvec3& point, const dvec3& normal) {
-  View view;
+LightView view_rectangle(const AreaShape& shape, const dvec3& point, const dvec3& normal) {
+  LightView view;
   Plane plane;
   if (!face_plane(shape, point, normal, view, plane)) {
     return view;
@@ -314,8 +314,8 @@ View view_rectangle(const AreaShape& shape, const dvec3& point, const dvec3& nor
 }
 
 // A disk has kinks at the tangents from the foot and where the horizon crosses its edge.
-View view_disk(const AreaShape& shape, const dvec3& point, const dvec3& normal) {
-  View view;
+LightView view_disk(const AreaShape& shape, const dvec3& point, const dvec3& normal) {
+  LightView view;
   Plane plane;
   if (!face_plane(shape, point, normal, view, plane)) {
     return view;
@@ -366,8 +366,8 @@ double locate_on_tube(const Barrel& barrel, double azimuth) {
 }
 
 // A tube is sliced by its angle around the axis. It has kinks where the horizon crosses its two ends.
-View view_tube(const AreaShape& shape, const dvec3& point, const dvec3& normal) {
-  View view;
+LightView view_tube(const AreaShape& shape, const dvec3& point, const dvec3& normal) {
+  LightView view;
   const double half_length = glm::length(shape.right);
   const dvec3 offset = shape.centre - point;
   if (!(half_length > 0.0) || !(shape.radius > 0.0)) {
@@ -399,7 +399,7 @@ View view_tube(const AreaShape& shape, const dvec3& point, const dvec3& normal) 
 }
 
 // Returns the light as seen from the point.
-View view_shape(const AreaShape& shape, const dvec3& point, const dvec3& normal) {
+LightView view_shape(const AreaShape& shape, const dvec3& point, const dvec3& normal) {
   switch (shape.kind) {
     case AreaShape::Kind::sphere:
       return view_sphere(shape, point, normal);
@@ -426,7 +426,7 @@ struct Arc {
 };
 
 // Returns the slice at a value of the outer variable, cut off where dot(normal, w) is not positive.
-Arc visible_arc(const View& view, const dvec3& normal, double outer) {
+Arc visible_arc(const LightView& view, const dvec3& normal, double outer) {
   const Slice slice = view.slice(outer);
   const dvec3 side = std::cos(slice.azimuth) * view.first + std::sin(slice.azimuth) * view.second;
   Arc arc{view.pole, side, slice.low, slice.high, slice.stretch};
@@ -443,7 +443,7 @@ Arc visible_arc(const View& view, const dvec3& normal, double outer) {
 }
 
 // The surface at the receiving point, for the mirror reflection.
-struct Surface {
+struct Receiver {
   dvec3 normal;
   dvec3 eye;     // The direction from the point to the eye.
   dvec3 facing;  // F0, the reflectance when H is along the eye, per colour channel.
@@ -457,7 +457,7 @@ double visibility_part(double x, double alpha) {
 }
 
 // Returns F * D * V * dot(normal, w), per steradian, for a direction above the horizon.
-dvec3 mirror_density(const Surface& surface, const dvec3& direction) {
+dvec3 mirror_density(const Receiver& surface, const dvec3& direction) {
   const double cosine = glm::dot(surface.normal, direction);
   const dvec3 sum = direction + surface.eye;
   const double length = glm::length(sum);
@@ -479,12 +479,12 @@ dvec3 mirror_density(const Surface& surface, const dvec3& direction) {
 }
 
 // Returns the direction in which a flat mirror would reflect the eye.
-dvec3 mirror_direction(const Surface& surface) {
+dvec3 mirror_direction(const Receiver& surface) {
   return 2.0 * glm::dot(surface.normal, surface.eye) * surface.normal - surface.eye;
 }
 
 // Integrates mirror_density * sin(polar) over the arc, split where D peaks and where dot(normal, H) changes sign.
-dvec3 mirror_along(const Surface& surface, const Arc& arc) {
+dvec3 mirror_along(const Receiver& surface, const Arc& arc) {
   std::vector<double> breaks;
   const dvec3 peak = mirror_direction(surface);
   const double polar = std::atan2(glm::dot(peak, arc.side), glm::dot(peak, arc.pole));
@@ -501,7 +501,7 @@ dvec3 mirror_along(const Surface& surface, const Arc& arc) {
 }
 
 // Integrates F * D * V * max(dot(normal, w), 0) over the solid angle of the visible directions.
-dvec3 mirror_integral(const View& view, const Surface& surface) {
+dvec3 mirror_integral(const LightView& view, const Receiver& surface) {
   if (view.breaks.empty()) {
     return dvec3(0.0);
   }
@@ -519,7 +519,7 @@ dvec3 mirror_integral(const View& view, const Surface& surface) {
 }  // namespace
 
 double form_factor(const AreaShape& shape, const dvec3& point, const dvec3& normal, double* error_estimate) {
-  const View view = view_shape(shape, point, normal);
+  const LightView view = view_shape(shape, point, normal);
   Estimate total;
   if (!view.breaks.empty()) {
     // The inner integrand is dot(normal, w) * sin(polar), a trigonometric polynomial of degree 2, for which one
@@ -545,8 +545,8 @@ double form_factor(const AreaShape& shape, const dvec3& point, const dvec3& norm
 Reflected reflected(const AreaShape& shape, const dvec3& point, const dvec3& normal, const dvec3& eye,
                     const double albedo[3], double metallic, double roughness) {
   const dvec3 colour(albedo[0], albedo[1], albedo[2]);
-  const Surface surface{normal, glm::normalize(eye - point), dvec3(0.04) * (1.0 - metallic) + colour * metallic,
-                        std::max(roughness * roughness, 0.001)};
+  const Receiver surface{normal, glm::normalize(eye - point), dvec3(0.04) * (1.0 - metallic) + colour * metallic,
+                         std::max(roughness * roughness, 0.001)};
   const dvec3 diffuse = colour * ((1.0 - metallic) * form_factor(shape, point, normal));
   const dvec3 mirror = mirror_integral(view_shape(shape, point, normal), surface);
   return {{diffuse.x, diffuse.y, diffuse.z}, {mirror.x, mirror.y, mirror.z}};

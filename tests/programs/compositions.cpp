@@ -38,12 +38,12 @@ V3 inverse_times(const M3& m, V3 v) {
   return out;
 }
 
-struct Case {
+struct Composition {
   const char* glsl;
   std::function<V3(V3 a, V3 b, float c)> wanted;
 };
 
-const std::vector<Case> kCases = {
+const std::vector<Composition> kCompositions = {
     {"vec3(dot(a, b), length(a), distance(a, b))",
      [](V3 a, V3 b, float) -> V3 {
        const V3 d = minus(a, b);
@@ -175,7 +175,7 @@ V3 random_vector(RandomWords& random) {
   return out;
 }
 
-bool same(float a, float b) {
+bool same_but_for_zeros(float a, float b) {
   return bits_of(a) == bits_of(b) || (std::isnan(a) && std::isnan(b)) || (a == 0 && b == 0);
 }
 
@@ -183,7 +183,7 @@ bool same(float a, float b) {
 
 TEST_CASE("Functions of vectors and matrices are composed as stated") {
   RandomWords random(5);
-  for (const Case& c : kCases) {
+  for (const Composition& c : kCompositions) {
     const std::string glsl = c.glsl;
     const Program program =
         program_of_light("vec3 a = s.position, b = s.normal; float c = s.metallic; int ai; return " + glsl + ";");
@@ -202,7 +202,7 @@ TEST_CASE("Functions of vectors and matrices are composed as stated") {
                 << factor);
       for (size_t k = 0; k < 3; ++k) {
         INFO(made[k] << " for " << wanted[k]);
-        REQUIRE(same(made[k], wanted[k]));
+        REQUIRE(same_but_for_zeros(made[k], wanted[k]));
       }
     }
   }

@@ -12,7 +12,7 @@ namespace {
 using Floats = std::array<float, 3>;
 
 /// GLSL of light() and what goes before it, and the same in C++. Both see the floats x, y, z of the surface's position.
-struct Case {
+struct Flow {
   const char* name;
   const char* before;
   const char* body;
@@ -21,7 +21,7 @@ struct Case {
 
 constexpr const char* kStart = "float x = s.position.x, y = s.position.y, z = s.position.z;\n";
 
-const Case kCases[] = {
+const Flow kFlows[] = {
     {"if and else", "",
      "vec3 r = vec3(1); if (x > y) { r.x = x; if (z > 0.0) r.y = z; else r.z = z; } else r = vec3(y); return r;",
      [](float x, float y, float z) -> Floats {
@@ -227,7 +227,7 @@ std::vector<uint32_t> without_variables(const std::vector<uint32_t>& words) {
   return out;
 }
 
-void check_case(const Case& c, const Program& program) {
+void check_flow(const Flow& c, const Program& program) {
   for (const float x : kValues)
     for (const float y : kValues)
       for (const float z : kValues) {
@@ -243,15 +243,15 @@ void check_case(const Case& c, const Program& program) {
 }  // namespace
 
 TEST_CASE("Branches, loops and functions do what they do in C++") {
-  for (const Case& c : kCases) check_case(c, program_of_light(std::string(kStart) + c.body, c.before));
+  for (const Flow& c : kFlows) check_flow(c, program_of_light(std::string(kStart) + c.body, c.before));
 }
 
 TEST_CASE("SPIR-V whose variables are values and whose functions are inlined does the same") {
-  for (const Case& c : kCases) {
+  for (const Flow& c : kFlows) {
     const std::string text = text_of_light(std::string(kStart) + c.body, c.before);
     const std::vector<uint32_t> words = without_variables(compiled_light("a.glsl", text).words);
     INFO(c.name);
-    check_case(c, program_from_spirv("a.spv", words));
+    check_flow(c, program_from_spirv("a.spv", words));
   }
 }
 

@@ -18,7 +18,7 @@ using glm::dvec3;
 using std::numbers::pi;
 
 /// What a model is given at one pixel under one light.
-struct Case {
+struct LitPixel {
   dvec3 position, normal, eye, albedo, specular;
   double metallic, roughness, shininess, occlusion;
   Light light;
@@ -34,7 +34,7 @@ struct Angles {
   dvec3 n, l, v, h;
   double nl, nv, nh, vh;
 
-  explicit Angles(const Case& c)
+  explicit Angles(const LitPixel& c)
       : n(glm::normalize(c.normal)),
         l(c.light.type == LightType::directional ? -dvec3(c.light.direction)
                                                  : glm::normalize(dvec3(c.light.position) - c.position)),
@@ -56,7 +56,7 @@ double frostbite_falloff(double d, double range) {
 }
 
 /// KHR_lights_punctual, "Inner and Outer Cone Angles".
-double cone(const Case& c, const Angles& a) {
+double cone(const LitPixel& c, const Angles& a) {
   if (c.light.type != LightType::spot) return 1;
   const double inner = std::cos(double(c.light.cone_rad));
   const double outer = std::cos(double(c.light.cone_rad) + double(c.light.penumbra_rad));
@@ -64,7 +64,7 @@ double cone(const Case& c, const Angles& a) {
   return square(clamped(glm::dot(dvec3(c.light.direction), -a.l) * scale - outer * scale));
 }
 
-dvec3 arriving(const Case& c, const Angles& a, double (*falloff)(double, double) = khr_falloff) {
+dvec3 arriving(const LitPixel& c, const Angles& a, double (*falloff)(double, double) = khr_falloff) {
   if (c.light.type == LightType::directional) return dvec3(c.light.color);
   const double d = glm::length(dvec3(c.light.position) - c.position);
   return dvec3(c.light.color) * (falloff(d, double(c.light.range)) * cone(c, a));
@@ -74,10 +74,10 @@ double ggx(double nh, double alpha) {
   return nh > 0 ? square(alpha) / (pi * square(square(nh) * (square(alpha) - 1) + 1)) : 0;
 }
 dvec3 schlick(const dvec3& f0, double cosine) { return f0 + (dvec3(1) - f0) * std::pow(1 - cosine, 5); }
-dvec3 f0_of(const Case& c) { return mix(dvec3(0.04), c.albedo, c.metallic); }
-dvec3 diffuse_of(const Case& c) { return c.albedo * (1 - c.metallic); }
+dvec3 f0_of(const LitPixel& c) { return mix(dvec3(0.04), c.albedo, c.metallic); }
+dvec3 diffuse_of(const LitPixel& c) { return c.albedo * (1 - c.metallic); }
 
-dvec3 gltf(const Case& c) {
+dvec3 gltf(const LitPixel& c) {
   const Angles a(c);
   const double alpha = std::max(square(c.roughness), 0.001);
   const auto g = [&](double x) {
@@ -88,7 +88,7 @@ dvec3 gltf(const Case& c) {
   return ((dvec3(1) - f) * diffuse_of(c) / pi + f * specular) * arriving(c, a) * a.nl;
 }
 
-dvec3 ue4(const Case& c) {
+dvec3 ue4(const LitPixel& c) {
   const Angles a(c);
   const double nv = std::max(a.nv, 1e-4), alpha = std::max(square(c.roughness), 0.001), k = square(c.roughness + 1) / 8;
   const auto g1 = [k](double x) { return x / (x * (1 - k) + k); };
@@ -101,7 +101,7 @@ double burley(double nl, double nv, double f90) {
   return (1 + (f90 - 1) * std::pow(1 - nl, 5)) * (1 + (f90 - 1) * std::pow(1 - nv, 5));
 }
 
-dvec3 frostbite(const Case& c) {
+dvec3 frostbite(const LitPixel& c) {
   const Angles a(c);
   const double nv = std::min(std::abs(a.nv) + 1e-5, 1.0), alpha = std::max(square(c.roughness), 0.002),
                a2 = square(alpha);
@@ -113,7 +113,7 @@ dvec3 frostbite(const Case& c) {
   return (diffuse_of(c) * scattered / pi + mirror) * arriving(c, a, frostbite_falloff) * a.nl;
 }
 
-dvec3 disney(const Case& c) {
+dvec3 disney(const LitPixel& c) {
   const Angles a(c);
   const double nv = std::max(a.nv, 1e-4), alpha = std::max(square(c.roughness), 0.001),
                g = square(0.5 + c.roughness / 2);
@@ -125,7 +125,7 @@ dvec3 disney(const Case& c) {
 
 double tan2(double cosine) { return (1 - square(cosine)) / square(cosine); }
 
-dvec3 cook_torrance(const Case& c) {
+dvec3 cook_torrance(const LitPixel& c) {
   const Angles a(c);
   const double nv = std::max(a.nv, 1e-4), nh = std::max(a.nh, 1e-3), vh = std::max(a.vh, 1e-4);
   const double m2 = square(std::max(square(c.roughness), 0.01));
@@ -140,13 +140,13 @@ dvec3 cook_torrance(const Case& c) {
   return (diffuse_of(c) / pi + f * (d * g / (4 * a.nl * nv))) * arriving(c, a) * a.nl;
 }
 
-dvec3 blinn_phong(const Case& c) {
+dvec3 blinn_phong(const LitPixel& c) {
   const Angles a(c);
   const double shine = (c.shininess + 8) / (8 * pi) * std::pow(std::max(a.nh, 0.0), c.shininess);
   return (c.albedo / pi + c.specular * shine) * arriving(c, a) * a.nl;
 }
 
-dvec3 oren_nayar(const Case& c) {
+dvec3 oren_nayar(const LitPixel& c) {
   const Angles a(c);
   const double s2 = square(c.roughness), in = std::acos(a.nl), out = std::acos(a.nv);
   const dvec3 flat_l = a.l - a.n * a.nl, flat_v = a.v - a.n * a.nv;
@@ -156,7 +156,7 @@ dvec3 oren_nayar(const Case& c) {
   return c.albedo / pi * (1 - 0.5 * s2 / (s2 + 0.33) + rough) * arriving(c, a) * a.nl;
 }
 
-dvec3 ward(const Case& c) {
+dvec3 ward(const LitPixel& c) {
   const Angles a(c);
   const double alpha2 = square(std::max(square(c.roughness), 0.01)), nv = std::max(a.nv, 1e-4),
                nh = std::max(a.nh, 1e-3);
@@ -164,7 +164,7 @@ dvec3 ward(const Case& c) {
   return (diffuse_of(c) / pi + f0_of(c) * gloss) * arriving(c, a) * a.nl;
 }
 
-dvec3 charlie(const Case& c) {
+dvec3 charlie(const LitPixel& c) {
   const Angles a(c);
   const double r = std::max(c.roughness, 0.07), nv = std::max(a.nv, 1e-4), t = square(1 - r);
   constexpr double kSmooth[] = {25.3245, 3.32435, 0.16801, -1.27393, -4.85967};
@@ -178,17 +178,17 @@ dvec3 charlie(const Case& c) {
   return c.albedo * ((1 - c.parameter) / pi + c.parameter * d * v) * arriving(c, a) * a.nl;
 }
 
-dvec3 lambert(const Case& c) {
+dvec3 lambert(const LitPixel& c) {
   const Angles a(c);
   return c.albedo / pi * arriving(c, a) * a.nl;
 }
 
-dvec3 wrapped(const Case& c) {
+dvec3 wrapped(const LitPixel& c) {
   const Angles a(c);
   return c.albedo / pi * std::max(0.0, (a.nl + c.parameter) / (1 + c.parameter)) * arriving(c, a);
 }
 
-dvec3 toon(const Case& c) {
+dvec3 toon(const LitPixel& c) {
   const Angles a(c);
   const double d = glm::length(dvec3(c.light.position) - c.position);
   const double w = c.light.type == LightType::directional ? 1 : square(clamped(1 - square(d / double(c.light.range))));
@@ -198,7 +198,7 @@ dvec3 toon(const Case& c) {
 
 struct Row {
   const char* name;
-  dvec3 (*formula)(const Case&);  ///< of lights with a direction, where N.L > 0, or at all where it wraps
+  dvec3 (*formula)(const LitPixel&);  ///< of lights with a direction, where N.L > 0, or at all where it wraps
   const char* parameter = "";
   float value = 0;
 };
@@ -219,7 +219,7 @@ const std::vector<Row>& rows() {
   return all;
 }
 
-dvec3 wanted(const Row& row, const Case& c) {
+dvec3 wanted(const Row& row, const LitPixel& c) {
   if (c.light.type == LightType::ambient)
     return dvec3(c.light.color) * c.albedo * (row.formula == gltf ? c.occlusion : 1.0);
   return Angles(c).nl > 0 || row.formula == wrapped ? row.formula(c) : dvec3(0);
@@ -229,14 +229,14 @@ constexpr double kOff = 4e-7;  ///< of unit vectors in f32: three roundings of 2
 
 /// How far arithmetic in f32 may be from `value`: 1e-5 of it, and what the formula itself makes of directions that are
 /// off by kOff. The second is for cosines and windows near 0, narrow lobes, and the edges of steps.
-dvec3 allowed(const Row& row, const Case& c, const dvec3& value) {
+dvec3 allowed(const Row& row, const LitPixel& c, const dvec3& value) {
   dvec3 sum = 1e-5 * value;
   if (row.formula == blinn_phong) sum += c.shininess * kOff * value;  // a power of a cosine that is off by kOff
   const double to_light = glm::length(dvec3(c.light.position) - c.position), to_eye = glm::length(c.eye - c.position);
   for (int axis = 0; axis < 3; ++axis)
     for (const double sign : {-1.0, 1.0}) {
       const double off = sign * kOff;
-      Case near = c;
+      LitPixel near = c;
       near.normal[axis] += off * glm::length(c.normal);
       sum += glm::abs(wanted(row, near) - value);
       near = c;
@@ -253,35 +253,32 @@ dvec3 allowed(const Row& row, const Case& c, const dvec3& value) {
   return sum;
 }
 
-float number(RandomWords& random, float low, float high) {
-  return low + (high - low) * (float(random() >> 8) * 0x1p-24f);
-}
-
-glm::vec3 triple(RandomWords& random, float low, float high) {
-  const float x = number(random, low, high), y = number(random, low, high), z = number(random, low, high);
+glm::vec3 triple_between(RandomWords& random, float low, float high) {
+  const float x = float_between(random, low, high), y = float_between(random, low, high),
+              z = float_between(random, low, high);
   return {x, y, z};
 }
 
-Light random_light(RandomWords& random) {
+Light random_shipped_light(RandomWords& random) {
   Light l;
   l.type = LightType(random() % 4);
-  l.position = triple(random, -3, 3), l.color = triple(random, 0, 4);
-  l.direction = glm::vec3(glm::normalize(dvec3(triple(random, -1, 1)) + dvec3(1e-3)));
-  if (random() % 4 != 0) l.range = number(random, 2, 12);
-  l.cone_rad = number(random, 0.3f, 1.2f), l.penumbra_rad = number(random, 0.05f, 0.3f);
+  l.position = triple_between(random, -3, 3), l.color = triple_between(random, 0, 4);
+  l.direction = glm::vec3(glm::normalize(dvec3(triple_between(random, -1, 1)) + dvec3(1e-3)));
+  if (random() % 4 != 0) l.range = float_between(random, 2, 12);
+  l.cone_rad = float_between(random, 0.3f, 1.2f), l.penumbra_rad = float_between(random, 0.05f, 0.3f);
   return l;
 }
 
-Case random_surface(RandomWords& random, const dvec3& eye) {
-  Case c{};
-  c.position = triple(random, -3, 3), c.normal = triple(random, -1, 1), c.eye = eye;
-  c.albedo = triple(random, 0, 1), c.specular = triple(random, 0, 1);
-  c.metallic = number(random, 0, 1), c.roughness = number(random, 0, 1);
-  c.shininess = 200 * square(number(random, 0, 1)), c.occlusion = number(random, 0, 1);
+LitPixel random_lit_pixel(RandomWords& random, const dvec3& eye) {
+  LitPixel c{};
+  c.position = triple_between(random, -3, 3), c.normal = triple_between(random, -1, 1), c.eye = eye;
+  c.albedo = triple_between(random, 0, 1), c.specular = triple_between(random, 0, 1);
+  c.metallic = float_between(random, 0, 1), c.roughness = float_between(random, 0, 1);
+  c.shininess = 200 * square(float_between(random, 0, 1)), c.occlusion = float_between(random, 0, 1);
   return c;
 }
 
-Numbers numbers_of(const Case& c) {
+Numbers numbers_of(const LitPixel& c) {
   Numbers out{{"surface.metallic", bits_of(float(c.metallic))},
               {"surface.roughness", bits_of(float(c.roughness))},
               {"surface.shininess", bits_of(float(c.shininess))},
@@ -318,21 +315,21 @@ Program program_of(const Row& row) {
   return program_from_glsl(model.file, model.text);
 }
 
-constexpr size_t kSurfaces = 8 * kBatchLanes, kLights = 4 * kBlockLanes;
+constexpr size_t kModelSurfaces = 8 * kBatchLanes, kModelLights = 4 * kBlockLanes;
 
-/// Random surfaces, a view, and random lights; lane i of block k is under light (k * 5 + turn * 3) % kLights.
-struct Sample {
-  std::vector<Case> surfaces;
+/// Random surfaces, a view, and random lights; lane i of block k is under light (k * 5 + turn * 3) % kModelLights.
+struct ModelSample {
+  std::vector<LitPixel> surfaces;
   std::vector<Light> lights;
 
-  explicit Sample(uint32_t seed) {
+  explicit ModelSample(uint32_t seed) {
     RandomWords random(seed);
-    for (size_t i = 0; i < kLights; ++i) lights.push_back(random_light(random));
-    for (size_t i = 0; i < kSurfaces; ++i) surfaces.push_back(random_surface(random, {0.5, 1, 4}));
+    for (size_t i = 0; i < kModelLights; ++i) lights.push_back(random_shipped_light(random));
+    for (size_t i = 0; i < kModelSurfaces; ++i) surfaces.push_back(random_lit_pixel(random, {0.5, 1, 4}));
   }
-  static size_t light_of(size_t surface, size_t turn) { return (surface / kBlockLanes * 5 + turn * 3) % kLights; }
-  Case at(size_t surface, size_t turn, const Row& row) const {
-    Case c = surfaces[surface];
+  static size_t light_of(size_t surface, size_t turn) { return (surface / kBlockLanes * 5 + turn * 3) % kModelLights; }
+  LitPixel at(size_t surface, size_t turn, const Row& row) const {
+    LitPixel c = surfaces[surface];
     c.light = lights[light_of(surface, turn)], c.parameter = double(row.value);
     return c;
   }
@@ -351,7 +348,7 @@ std::vector<std::vector<LaneBlock>> planes_of(const Executable& executable, Rate
 }
 
 /// What light() adds at every surface, for each turn of `turns`.
-std::vector<glm::vec3> added(const Row& row, const Sample& sample, size_t turns) {
+std::vector<glm::vec3> added(const Row& row, const ModelSample& sample, size_t turns) {
   const Executable executable = executable_of(program_of(row));
   Registers registers(executable);
   ConstantValues constants(executable);
@@ -361,11 +358,12 @@ std::vector<glm::vec3> added(const Row& row, const Sample& sample, size_t turns)
   for (size_t i = 0; i < inputs.size(); ++i)
     constants.set_input(i, fixed.at(executable.program.inputs[inputs[i]].name));
   std::vector<Numbers> surfaces, lights;
-  for (const Case& c : sample.surfaces) surfaces.push_back(numbers_of(c));
+  for (const LitPixel& c : sample.surfaces) surfaces.push_back(numbers_of(c));
   for (const Light& l : sample.lights) lights.push_back(numbers_of(l));
   const auto surface_planes = planes_of(executable, Rate::surface, surfaces),
              light_planes = planes_of(executable, Rate::light, lights);
-  LaneValues of_lights(executable.at(Rate::light), kLights), of_surfaces(executable.at(Rate::surface), kSurfaces);
+  LaneValues of_lights(executable.at(Rate::light), kModelLights),
+      of_surfaces(executable.at(Rate::surface), kModelSurfaces);
   for (size_t i = 0; i < light_planes.size(); ++i) of_lights.set_input(i, light_planes[i][0].lane);
   for (size_t i = 0; i < surface_planes.size(); ++i) of_surfaces.set_input(i, surface_planes[i][0].lane);
   run_constants(executable, constants, registers);
@@ -373,11 +371,11 @@ std::vector<glm::vec3> added(const Row& row, const Sample& sample, size_t turns)
   run_surfaces(executable, constants, of_surfaces, nullptr, registers);
   std::vector<glm::vec3> out;
   for (size_t turn = 0; turn < turns; ++turn)
-    for (size_t first = 0; first < kSurfaces; first += kBatchLanes) {
+    for (size_t first = 0; first < kModelSurfaces; first += kBatchLanes) {
       PairBlock pairs[kBatchBlocks];
       for (size_t k = 0; k < kBatchBlocks; ++k) {
         const size_t surface = first + k * kBlockLanes;
-        pairs[k] = {uint32_t(surface), uint32_t(Sample::light_of(surface, turn))};
+        pairs[k] = {uint32_t(surface), uint32_t(ModelSample::light_of(surface, turn))};
       }
       const PairResults made = run_pairs(executable, constants, of_lights, of_surfaces, pairs, registers);
       for (size_t lane = 0; lane < kBatchLanes; ++lane)
@@ -390,14 +388,14 @@ std::vector<glm::vec3> added(const Row& row, const Sample& sample, size_t turns)
 
 TEST_CASE("Every light model that ships adds what its source's formula gives in double, on every SIMD target") {
   constexpr size_t kTurns = 4;
-  const Sample sample(4);
+  const ModelSample sample(4);
   REQUIRE(rows().size() == shipped_models().size());
   for (const Row& row : rows()) {
     INFO(row.name);
     std::vector<std::pair<dvec3, dvec3>> expected;  // values, and how far off they may be
     for (size_t turn = 0; turn < kTurns; ++turn)
-      for (size_t i = 0; i < kSurfaces; ++i) {
-        const Case c = sample.at(i, turn, row);
+      for (size_t i = 0; i < kModelSurfaces; ++i) {
+        const LitPixel c = sample.at(i, turn, row);
         const dvec3 value = wanted(row, c);
         expected.emplace_back(value, allowed(row, c, value));
       }
@@ -413,7 +411,7 @@ TEST_CASE("Every light model that ships adds what its source's formula gives in 
         lit += value > 0, tight += value > 0 && bound < 5e-5 * value;
         if (!(error <= most * bound)) worst = i, most = bound > 0 ? error / bound : 1e9;
       }
-      const Case c = sample.at(worst / 3 % kSurfaces, worst / 3 / kSurfaces, row);
+      const LitPixel c = sample.at(worst / 3 % kModelSurfaces, worst / 3 / kModelSurfaces, row);
       INFO("channel " << worst % 3 << " of a light of type " << int(c.light.type) << ", roughness " << c.roughness
                       << ", N.L " << Angles(c).nl << ", N.V " << Angles(c).nv << ": " << made[worst / 3][int(worst % 3)]
                       << ", not " << expected[worst / 3].first[int(worst % 3)] << "; target " << target);
@@ -425,26 +423,27 @@ TEST_CASE("Every light model that ships adds what its source's formula gives in 
 }
 
 TEST_CASE("No light model that ships makes a NaN where a vector has no direction or a surface no roughness") {
-  Sample sample(5);
+  ModelSample sample(5);
   const float infinite = std::numeric_limits<float>::infinity();
-  for (size_t i = 0; i < kSurfaces; ++i) {
-    Case& c = sample.surfaces[i];
+  for (size_t i = 0; i < kModelSurfaces; ++i) {
+    LitPixel& c = sample.surfaces[i];
     c.eye = {0.5, 1, 4};
-    if (i % 2 == 1) c.position = sample.lights[Sample::light_of(i, 0)].position;
+    if (i % 2 == 1) c.position = sample.lights[ModelSample::light_of(i, 0)].position;
     if (i / 2 % 3 == 1) c.normal = dvec3(0);
     if (i / 2 % 3 == 2)
-      c.normal =
-          glm::normalize(dvec3(glm::vec3(sample.lights[Sample::light_of(i, 0)].position)) - c.position + dvec3(1e-9));
+      c.normal = glm::normalize(dvec3(glm::vec3(sample.lights[ModelSample::light_of(i, 0)].position)) - c.position +
+                                dvec3(1e-9));
     if (i / 6 % 4 == 1) c.position = c.eye;
     if (i / 6 % 4 == 2)
-      c.position = 2.0 * c.eye - dvec3(sample.lights[Sample::light_of(i, 0)].position);  // between them
+      c.position = 2.0 * c.eye - dvec3(sample.lights[ModelSample::light_of(i, 0)].position);  // between them
     if (i / 6 % 4 == 3) c.position = c.eye * (1.0 + 1e-6);
     c.roughness = i / 24 % 3 == 0 ? 0 : i / 24 % 3 == 1 ? 1 : c.roughness;
     c.metallic = double(i / 72 % 2), c.shininess = i / 24 % 3 == 0 ? 0 : 8192;
     if (i / 144 % 2 == 1) c.albedo = c.specular = dvec3(double(i / 288 % 2));
   }
-  for (size_t i = 0; i < kLights; i += 3) sample.lights[i].range = infinite, sample.lights[i].color = glm::vec3(1e18f);
-  for (size_t i = 1; i < kLights; i += 3) sample.lights[i].range = 1e-30f;
+  for (size_t i = 0; i < kModelLights; i += 3)
+    sample.lights[i].range = infinite, sample.lights[i].color = glm::vec3(1e18f);
+  for (size_t i = 1; i < kModelLights; i += 3) sample.lights[i].range = 1e-30f;
   for (const Row& row : rows()) {
     INFO(row.name);
     for (const std::string_view target : simd_targets()) {

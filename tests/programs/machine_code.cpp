@@ -17,7 +17,7 @@
 namespace trueshade::programs {
 namespace {
 
-constexpr size_t kPixels = 3 * kBlockLanes;
+constexpr size_t kMachinePixels = 3 * kBlockLanes;
 
 /// The targets that have machine code here.
 std::vector<std::string_view> machine_targets() {
@@ -30,18 +30,18 @@ std::vector<std::string_view> machine_targets() {
   return out;
 }
 
-constexpr uint32_t kSpecial[] = {0x00000000u, 0x80000000u, 0x3F800000u, 0xBF800000u, 0x7F800000u, 0xFF800000u,
-                                 0x7FC00000u, 0x7F800001u, 0x00000001u, 0x80000001u, 0x007FFFFFu, 0x00800000u,
-                                 0x7F7FFFFFu, 0xFF7FFFFFu, 0x3F000000u, 0xBF000000u, 0x40200000u, 0x4B7FFFFFu,
-                                 0x4F000000u, 0xCF000000u, 0x4F800000u, 0x41200000u, 0xFFFFFFFFu, 0x0000001Fu,
-                                 0x00000020u, 0x49742401u, 0x42000000u, 0x33000001u, 0x477FF000u, 0x3F7FFFFFu};
+constexpr uint32_t kSpecialInputs[] = {0x00000000u, 0x80000000u, 0x3F800000u, 0xBF800000u, 0x7F800000u, 0xFF800000u,
+                                       0x7FC00000u, 0x7F800001u, 0x00000001u, 0x80000001u, 0x007FFFFFu, 0x00800000u,
+                                       0x7F7FFFFFu, 0xFF7FFFFFu, 0x3F000000u, 0xBF000000u, 0x40200000u, 0x4B7FFFFFu,
+                                       0x4F000000u, 0xCF000000u, 0x4F800000u, 0x41200000u, 0xFFFFFFFFu, 0x0000001Fu,
+                                       0x00000020u, 0x49742401u, 0x42000000u, 0x33000001u, 0x477FF000u, 0x3F7FFFFFu};
 
 uint32_t random_bits(RandomWords& random) {
   const uint32_t kind = random() % 4;
   if (kind == 0) return random();
   if (kind == 1) return bits_of(float(int(random() % 4096) - 2048) / 256.0f);
   if (kind == 2) return random() % 64 - 32;
-  return kSpecial[random() % std::size(kSpecial)];
+  return kSpecialInputs[random() % std::size(kSpecialInputs)];
 }
 
 /// A value of any type as a float of the same bits, so that it can be an output; booleans are 0 and 1.
@@ -65,31 +65,29 @@ Program program_of(NodeBuilder& builder, NodeId result) {
   return program;
 }
 
-/// start.x at kPixels surfaces.
+/// start.x at kMachinePixels surfaces.
 std::vector<uint32_t> started(const Executable& executable, const std::vector<std::vector<LaneBlock>>& planes) {
   Registers registers(executable);
   ConstantValues constants(executable);
-  LaneValues lights(executable.at(Rate::light), kBlockLanes), surfaces(executable.at(Rate::surface), kPixels);
+  LaneValues lights(executable.at(Rate::light), kBlockLanes), surfaces(executable.at(Rate::surface), kMachinePixels);
   const auto& inputs = executable.at(Rate::surface).inputs;
   for (size_t i = 0; i < inputs.size(); ++i) {
     const std::string& name = executable.program.inputs[inputs[i]].name;
     surfaces.set_input(i, planes[size_t(std::stoi(name.substr(1)))][0].lane);
   }
   std::vector<LaneBlock> start[3];
-  for (auto& blocks : start) blocks.resize(kPixels / kBlockLanes);
+  for (auto& blocks : start) blocks.resize(kMachinePixels / kBlockLanes);
   float* const start_planes[3] = {start[0][0].lane, start[1][0].lane, start[2][0].lane};
   run_constants(executable, constants, registers);
   run_lights(executable, constants, lights, registers);
   run_surfaces(executable, constants, surfaces, start_planes, registers);
   std::vector<uint32_t> out;
-  for (size_t i = 0; i < kPixels; ++i) out.push_back(bits_of(start_planes[0][i]));
+  for (size_t i = 0; i < kMachinePixels; ++i) out.push_back(bits_of(start_planes[0][i]));
   return out;
 }
 
-bool same(uint32_t a, uint32_t b) { return a == b || (float_of(a) != float_of(a) && float_of(b) != float_of(b)); }
-
 std::vector<std::vector<LaneBlock>> random_planes(size_t count, RandomWords& random) {
-  std::vector<std::vector<LaneBlock>> planes(count, std::vector<LaneBlock>(kPixels / kBlockLanes));
+  std::vector<std::vector<LaneBlock>> planes(count, std::vector<LaneBlock>(kMachinePixels / kBlockLanes));
   for (auto& plane : planes)
     for (LaneBlock& block : plane)
       for (float& lane : block.lane) lane = float_of(random_bits(random));
@@ -140,11 +138,11 @@ TEST_CASE("Machine code of every operation has the bits of its plain formula") {
       for (int round = 0; round < 60; ++round) {
         const auto planes = random_planes(3, random);
         const std::vector<uint32_t> made = started(executable, planes);
-        for (size_t i = 0; i < kPixels; ++i) {
+        for (size_t i = 0; i < kMachinePixels; ++i) {
           uint32_t given[3];
           for (size_t k = 0; k < 3; ++k) given[k] = bits_of(planes[k][i / kBlockLanes].lane[i % kBlockLanes]);
           INFO(std::hex << given[0] << " " << given[1] << " " << given[2]);
-          REQUIRE(same(made[i], expected_of(Op(op), given)));
+          REQUIRE(equal_or_nan(made[i], expected_of(Op(op), given)));
         }
       }
     }
@@ -169,7 +167,7 @@ TEST_CASE("Machine code gives functions numbers of the text, of the frame and of
         const MachineCodeScope interpreted(false);
         const std::vector<float> wanted = light_of(program, inputs);
         INFO(target << ": " << body);
-        for (size_t c = 0; c < 3; ++c) REQUIRE(same(bits_of(made[c]), bits_of(wanted[c])));
+        for (size_t c = 0; c < 3; ++c) REQUIRE(equal_or_nan(bits_of(made[c]), bits_of(wanted[c])));
       }
     }
 }
@@ -196,7 +194,7 @@ TEST_CASE("Machine code chooses between booleans that were put away, by one that
       const MachineCodeScope interpreted(false);
       const std::vector<uint32_t> wanted = started(executable, planes);
       INFO(target);
-      for (size_t i = 0; i < kPixels; ++i) REQUIRE(made[i] == wanted[i]);
+      for (size_t i = 0; i < kMachinePixels; ++i) REQUIRE(made[i] == wanted[i]);
     }
   }
 }
@@ -212,10 +210,10 @@ TEST_CASE("Powers of integers that the text says have the bits of pow") {
       RandomWords random(5);
       const auto planes = random_planes(1, random);
       const std::vector<uint32_t> made = started(executable, planes);
-      for (size_t i = 0; i < kPixels; ++i) {
+      for (size_t i = 0; i < kMachinePixels; ++i) {
         const uint32_t given = bits_of(planes[0][i / kBlockLanes].lane[i % kBlockLanes]);
         INFO(target << ", " << float_of(given) << " to the " << power);
-        REQUIRE(same(made[i], plain(Op::pow, given, bits_of(float(power)), 0)));
+        REQUIRE(equal_or_nan(made[i], plain(Op::pow, given, bits_of(float(power)), 0)));
       }
     }
 }
@@ -251,7 +249,7 @@ TEST_CASE("Values that no register is left for come back from the frame, boolean
         REQUIRE(executable.machine->function(executable, Rate::surface) == nullptr);
         const std::vector<uint32_t> wanted = started(executable, planes);
         INFO(target << ", calls " << calls);
-        for (size_t i = 0; i < kPixels; ++i) REQUIRE(same(made[i], wanted[i]));
+        for (size_t i = 0; i < kMachinePixels; ++i) REQUIRE(equal_or_nan(made[i], wanted[i]));
       }
     }
 }

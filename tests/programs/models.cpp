@@ -20,9 +20,8 @@ std::string text_of_model(const std::string& name) {
   return text.str();
 }
 
-float number(RandomWords& random, float low, float high) {
-  if (random() % 64 == 0) return 0.0f;
-  return low + (high - low) * (float(random() >> 8) * 0x1p-24f);
+float model_number(RandomWords& random, float low, float high) {
+  return random() % 64 == 0 ? 0.0f : float_between(random, low, high);
 }
 
 /// Pixels and lights about each other, and planes of them by the names of a program's inputs.
@@ -35,17 +34,17 @@ struct Sample {
     RandomWords random(seed);
     for (Pixel& p : pixels) {
       p = {};
-      p.position = {number(random, -3, 3), number(random, -3, 3), number(random, -3, 3)};
-      p.normal = {number(random, -1, 1), number(random, -1, 1), number(random, -1, 1)};
-      for (float& a : p.albedo) a = number(random, 0, 1);
+      p.position = {model_number(random, -3, 3), model_number(random, -3, 3), model_number(random, -3, 3)};
+      p.normal = {model_number(random, -1, 1), model_number(random, -1, 1), model_number(random, -1, 1)};
+      for (float& a : p.albedo) a = model_number(random, 0, 1);
     }
     scene.camera.eye = {0.5f, 1.0f, 4.0f};
     for (size_t i = 0; i < kCount / kBlockLanes; ++i) {
       Light light;
       light.type = LightType::point;
-      light.position = {number(random, -3, 3), number(random, -3, 3), number(random, -3, 3)};
-      light.color = {number(random, 0, 2), number(random, 0, 2), number(random, 0, 2)};
-      light.range = number(random, 0.5f, 8);
+      light.position = {model_number(random, -3, 3), model_number(random, -3, 3), model_number(random, -3, 3)};
+      light.color = {model_number(random, 0, 2), model_number(random, 0, 2), model_number(random, 0, 2)};
+      light.range = model_number(random, 0.5f, 8);
       scene.lights.push_back(light);
     }
     const auto plane = [&](const std::string& name, size_t lanes, auto value) {

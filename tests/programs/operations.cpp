@@ -12,7 +12,7 @@
 namespace trueshade::programs {
 namespace {
 
-constexpr uint32_t kSpecial[] = {
+constexpr uint32_t kSpecialOperands[] = {
     0x00000000u, 0x80000000u, 0x3F800000u, 0xBF800000u, 0x7F800000u, 0xFF800000u, 0x7FC00000u, 0xFFC00000u,
     0x7F800001u, 0x00000001u, 0x80000001u, 0x007FFFFFu, 0x00800000u, 0x7F7FFFFFu, 0xFF7FFFFFu, 0x3F000000u,
     0xBF000000u, 0x3EFFFFFFu, 0x3FC00000u, 0x40200000u, 0xBFC00000u, 0x4B000000u, 0x4B7FFFFFu, 0x4EFFFFFFu,
@@ -26,7 +26,7 @@ uint32_t random_bits(Type type, RandomWords& random) {
   if (type == Type::boolean) return random() & 1;
   switch (random() % 4) {
     case 0:
-      return kSpecial[random() % std::size(kSpecial)];
+      return kSpecialOperands[random() % std::size(kSpecialOperands)];
     case 1:
       return type == Type::f32 ? bits_of(float(int(random() % 64)) / 4.0f - 8.0f) : random() % 64 - 32;
     case 2:

@@ -14,4 +14,9 @@ class RandomWords {
   std::mt19937 engine_;
 };
 
+/// A float from `low` to `high`, by 24 random bits.
+inline float float_between(RandomWords& random, float low, float high) {
+  return low + (high - low) * (float(random() >> 8) * 0x1p-24f);
+}
+
 }  // namespace trueshade::programs

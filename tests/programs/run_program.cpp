@@ -33,6 +33,9 @@ LaneValues values_of(const Executable& executable, Rate rate, const std::vector<
 
 float float_of(uint32_t bits) { return std::bit_cast<float>(bits); }
 uint32_t bits_of(float x) { return std::bit_cast<uint32_t>(x); }
+bool equal_or_nan(uint32_t a, uint32_t b) {
+  return a == b || (float_of(a) != float_of(a) && float_of(b) != float_of(b));
+}
 
 Numbers run_once(const Program& program, const Numbers& inputs) {
   const Executable executable = executable_of(program, Wanted::light_and_reaches);

@@ -14,6 +14,9 @@ Numbers run_once(const Program& program, const Numbers& inputs);
 float float_of(uint32_t bits);
 uint32_t bits_of(float x);
 
+/// Whether the bits are the same, or both those of a NaN.
+bool equal_or_nan(uint32_t a, uint32_t b);
+
 /// GLSL whose light() is this, with the functions before it; and its program.
 std::string text_of_light(const std::string& body, const std::string& before = "");
 Program program_of_light(const std::string& body, const std::string& before = "");

@@ -16,42 +16,41 @@
 namespace trueshade::programs {
 namespace {
 
-float number(RandomWords& random, float low, float high) {
-  if (random() % 32 == 0) return 0.0f;
-  return low + (high - low) * (float(random() >> 8) * 0x1p-24f);
+float stated_number(RandomWords& random, float low, float high) {
+  return random() % 32 == 0 ? 0.0f : float_between(random, low, high);
 }
 
-glm::vec3 triple(RandomWords& random, float low, float high) {
-  return {number(random, low, high), number(random, low, high), number(random, low, high)};
+glm::vec3 stated_triple(RandomWords& random, float low, float high) {
+  return {stated_number(random, low, high), stated_number(random, low, high), stated_number(random, low, high)};
 }
 
 Pixel random_pixel(RandomWords& random, const LightModel& model) {
-  const glm::vec3 p = triple(random, -3, 3), n = triple(random, -1, 1);
+  const glm::vec3 p = stated_triple(random, -3, 3), n = stated_triple(random, -1, 1);
   Pixel out{{p.x, p.y, p.z}, {n.x, n.y, n.z}, {}, {}, {}};
-  for (float& a : out.albedo) a = number(random, 0, 1);
-  for (float& s : out.specular) s = number(random, 0, 1);
-  out.specular[3] = std::nearbyint(number(random, 0, 1) * (random() % 2 == 0 ? 8192.0f : 20.0f));
+  for (float& a : out.albedo) a = stated_number(random, 0, 1);
+  for (float& s : out.specular) s = stated_number(random, 0, 1);
+  out.specular[3] = std::nearbyint(stated_number(random, 0, 1) * (random() % 2 == 0 ? 8192.0f : 20.0f));
   if (model.emission)
-    for (float& e : out.emission) e = number(random, 0, 1);
-  out.ambient_share = model.emission ? number(random, 0, 1) : 1.0f;
+    for (float& e : out.emission) e = stated_number(random, 0, 1);
+  out.ambient_share = model.emission ? stated_number(random, 0, 1) : 1.0f;
   return out;
 }
 
-Light random_light(RandomWords& random) {
+Light random_stated_light(RandomWords& random) {
   Light l;
   l.type = LightType(random() % 4);
   if (random() % 2 == 0) l.type = LightType::spot;
-  l.position = triple(random, -3, 3);
+  l.position = stated_triple(random, -3, 3);
   l.direction = glm::vec3(0, -1, 0);
   if (random() % 4 != 0) {
-    const glm::vec3 d = triple(random, -1, 1) + glm::vec3(0, 0.01f, 0);
+    const glm::vec3 d = stated_triple(random, -1, 1) + glm::vec3(0, 0.01f, 0);
     l.direction = d / std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
   }
-  l.color = triple(random, 0, 2), l.ambient = triple(random, 0, 1);
-  l.attenuation = triple(random, 0, 2);
-  l.range = number(random, 0, 8) + 0.5f;
-  l.cone_rad = number(random, 0, 1), l.penumbra_rad = number(random, 0, 2.14159f);
-  l.spot_exponent = random() % 2 == 0 ? float(random() % 129) : number(random, 0, 128);
+  l.color = stated_triple(random, 0, 2), l.ambient = stated_triple(random, 0, 1);
+  l.attenuation = stated_triple(random, 0, 2);
+  l.range = stated_number(random, 0, 8) + 0.5f;
+  l.cone_rad = stated_number(random, 0, 1), l.penumbra_rad = stated_number(random, 0, 2.14159f);
+  l.spot_exponent = random() % 2 == 0 ? float(random() % 129) : stated_number(random, 0, 128);
   return l;
 }
 
@@ -108,7 +107,7 @@ int check_model(const LightModel& model, RandomWords& random, int pixels) {
   int changed = 0;
   for (int i = 0; i < pixels; ++i) {
     const Pixel pixel = random_pixel(random, model);
-    scene.lights = {random_light(random)};
+    scene.lights = {random_stated_light(random)};
     const auto wanted = naive_sum(scene, model, pixel), unlit = naive_sum(dark, model, pixel);
     const auto made = shown(program, inputs_of(pixel, scene.lights[0], scene.camera),
                             model.alpha_from_albedo ? pixel.albedo[3] : 1.0f);

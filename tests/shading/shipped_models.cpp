@@ -1,10 +1,14 @@
 // What the light models that ship draw. tests/programs/light_models.cpp holds their formulas.
+#include "scenes/pipeline/shipped_models.h"
+
 #include <cmath>
+#include <map>
+#include <set>
+#include <string>
 
 #include "core/image_hash.h"
 #include "core/simd/simd_target.h"
 #include "scenes/builtin/builtin.h"
-#include "scenes/pipeline/shipped_models.h"
 #include "scenes/shapes.h"
 #include "shading/frame.h"
 #include "tests/catch.hpp"

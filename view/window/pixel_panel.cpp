@@ -6,10 +6,7 @@ namespace trueshade::viewer {
 namespace {
 
 std::string values_of(const Quantity& quantity) {
-  if (!quantity.shown.empty()) return quantity.shown;
-  std::string text;
-  for (const AccountValue& value : quantity.values) text += (text.empty() ? "" : ", ") + value_text(value);
-  return text;
+  return quantity.shown.empty() ? values_text(quantity.values) : quantity.shown;
 }
 
 void draw_quantities(const PanelContext& context, const Account& account) {

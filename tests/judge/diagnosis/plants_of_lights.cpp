@@ -13,13 +13,7 @@ namespace trueshade::testing {
 namespace {
 
 using oracle::Capture;
-using Input = std::function<bool(Scene&, Pipeline&, int)>;
-using Output = std::function<void(const Scene&, const Pipeline&, Capture&, int)>;
-using Names = std::vector<std::string_view>;
 using V = glm::vec3;
-
-float pick(std::initializer_list<float> sizes, int variant) { return sizes.begin()[size_t(variant) % sizes.size()]; }
-float dot_of(const V& a, const V& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 template <class Change>
 Input one_light(Change change) {
@@ -49,12 +43,6 @@ void rounded(Scene& s, Pipeline&) {
     }
 }
 void rebuilt_positions(Scene&, Pipeline& p) { p.gbuffer.position_from_depth = true; }
-
-Image* plane_of(Capture& c, std::string_view name) {
-  for (NamedImage& p : c.planes)
-    if (p.name == name) return &p.image;
-  return nullptr;
-}
 
 /// Three floats of a plane, of each surface.
 template <class Formula>

@@ -9,12 +9,7 @@ namespace trueshade::testing {
 
 namespace {
 
-using Input = std::function<bool(Scene&, Pipeline&, int)>;
-using Names = std::vector<std::string_view>;
-
 constexpr std::string_view kTextured = "lecture";
-
-float pick(std::initializer_list<float> sizes, int variant) { return sizes.begin()[size_t(variant) % sizes.size()]; }
 
 /// A map of codes by a formula of the texel, for scenes without maps; coordinates are made of positions.
 template <class Formula>

@@ -13,13 +13,8 @@ namespace trueshade::testing {
 namespace {
 
 using oracle::Capture;
-using Input = std::function<bool(Scene&, Pipeline&, int)>;
-using Output = std::function<void(const Scene&, const Pipeline&, Capture&, int)>;
-using Names = std::vector<std::string_view>;
 
 const Names kModels = {"many-lights", "punctual"}, kShiny = {"many-lights", "touchdesigner"};
-
-float pick(std::initializer_list<float> sizes, int variant) { return sizes.begin()[size_t(variant) % sizes.size()]; }
 
 /// A channel's number of rgba8 or rgba16f, as a store makes it.
 void put(Image& image, int x, int y, int k, double v) {
@@ -93,7 +88,7 @@ Input in_floats(Input input) {
   };
 }
 
-std::vector<Plant> made() {
+std::vector<Plant> made_pictures() {
   std::vector<Plant> all;
   const auto out = [&](std::string_view name, Names names, Output output, int variants = 1, Names presets = kModels) {
     all.push_back({name, std::move(names), "picture", std::move(presets), variants, nullptr, std::move(output)});
@@ -251,7 +246,7 @@ std::vector<Plant> made() {
 }  // namespace
 
 const std::vector<Plant>& plants_of_pictures() {
-  static const std::vector<Plant> all = made();
+  static const std::vector<Plant> all = made_pictures();
   return all;
 }
 

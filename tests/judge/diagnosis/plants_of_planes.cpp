@@ -14,18 +14,7 @@ namespace trueshade::testing {
 namespace {
 
 using oracle::Capture;
-using Input = std::function<bool(Scene&, Pipeline&, int)>;
-using Output = std::function<void(const Scene&, const Pipeline&, Capture&, int)>;
-using Names = std::vector<std::string_view>;
 using V = glm::vec3;
-
-float dot_of(const V& a, const V& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-
-Image* plane_of(Capture& c, std::string_view name) {
-  for (NamedImage& p : c.planes)
-    if (p.name == name) return &p.image;
-  return nullptr;
-}
 
 float get(const Image& i, int x, int y, int k) {
   float v;
@@ -171,7 +160,6 @@ void rounded_and_stretched(Scene& s, Pipeline& p) {
     }
   stretched(s, p);
 }
-void culled_back(Scene&, Pipeline& p) { p.geometry.cull_face = CullFace::back; }
 
 std::vector<Plant> made_planes() {
   std::vector<Plant> all;

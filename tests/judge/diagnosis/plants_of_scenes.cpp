@@ -11,9 +11,6 @@ namespace trueshade::testing {
 
 namespace {
 
-using Input = std::function<bool(Scene&, Pipeline&, int)>;
-using Names = std::vector<std::string_view>;
-
 /// A plane that slides along itself shows nothing of it.
 bool is_flat(const Mesh& mesh) {
   for (size_t k = 0; k < 3; ++k) {
@@ -56,8 +53,6 @@ void turn(Instance& object, float degrees, bool about_x) {
   }
 }
 
-void culled_back(Scene&, Pipeline& p) { p.geometry.cull_face = CullFace::back; }
-
 /// Indices above 65,535: as many vertices that nothing else uses come first, each a copy of one that is used.
 void many_vertices(Scene& s, Pipeline&) {
   constexpr uint32_t kUnused = 65560;
@@ -87,8 +82,6 @@ Input of_matrix(Change change) {
     return true;
   };
 }
-
-float pick(std::initializer_list<float> sizes, int variant) { return sizes.begin()[size_t(variant) % sizes.size()]; }
 
 void add_objects(const std::function<Plant&(std::string_view, Names, Input, int)>& in) {
   in("an object moved", {"object-moved"}, of_object([](Instance& i, int v) {
@@ -253,7 +246,7 @@ void resolve_samples(const Scene& s, const Pipeline& p, oracle::Capture& c, int)
   c.color = slipped_picture(s, p, c, LightSlip::none);
 }
 
-std::vector<Plant> made() {
+std::vector<Plant> made_scenes() {
   std::vector<Plant> all;
   const auto in = [&](std::string_view name, Names names, Input input, int variants) -> Plant& {
     all.push_back({name, std::move(names), "G-buffer", {"many-lights", "touchdesigner"}, variants, std::move(input)});
@@ -274,7 +267,7 @@ std::vector<Plant> made() {
 }  // namespace
 
 const std::vector<Plant>& plants_of_scenes() {
-  static const std::vector<Plant> all = made();
+  static const std::vector<Plant> all = made_scenes();
   return all;
 }
 

@@ -10,12 +10,10 @@ namespace {
 
 using Images = std::vector<Image>;
 
-bool lamp(const Light& l) { return l.type == LightType::point || l.type == LightType::spot; }
-
 /// The lamp in the middle of the list.
 size_t middle_lamp(const Scene& s) {
   size_t best = s.lights.size() / 2;
-  for (size_t i = 0; i < s.lights.size() && !lamp(s.lights[best]); ++i) best = i;
+  for (size_t i = 0; i < s.lights.size() && !is_lamp(s.lights[best]); ++i) best = i;
   return best;
 }
 
@@ -25,7 +23,7 @@ size_t middle_lamp(const Scene& s) {
 void boxes(Scene& s, Pipeline& p) {
   for (Light& l : s.lights) {
     const glm::vec3 d = l.position - s.camera.eye;
-    if (lamp(l)) l.range = 0.35f * std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+    if (is_lamp(l)) l.range = 0.35f * std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
   }
   p.light_volumes.point = p.light_volumes.spot = LightExtent::box;
   p.light_volumes.cull_face = CullFace::front;
@@ -48,7 +46,7 @@ void eye_in_boxes(Scene& s, Pipeline& p) {
   hard_boxes(s, p);
   for (Light& l : s.lights) {
     const glm::vec3 d = l.position - s.camera.eye;
-    if (lamp(l)) l.range = 1.25f * std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+    if (is_lamp(l)) l.range = 1.25f * std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
   }
 }
 void bright(Scene& s, Pipeline&) {
@@ -207,7 +205,7 @@ Images first_added(const Scene& s, const Pipeline& p, const StepRenderer& render
   return images;
 }
 
-constexpr BlendMutant kMutants[] = {
+constexpr BlendMutant kBlendMutants[] = {
     {"a light blended twice", Latitude::none, nullptr, blended_twice},
     {"a light's draw lost", Latitude::none, nullptr, lost},
     {"a light skipped in one tile", Latitude::none, nullptr, skipped_in_a_tile},
@@ -228,7 +226,7 @@ constexpr BlendMutant kMutants[] = {
 
 }  // namespace
 
-std::span<const BlendMutant> blend_mutants() { return kMutants; }
+std::span<const BlendMutant> blend_mutants() { return kBlendMutants; }
 
 std::vector<Image> images_of(const LightSteps& steps) {
   Images images;

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <map>
 
-#include "tests/judge/mutants/surface_mutants.h"
 #include "scenes/shapes.h"
+#include "tests/judge/mutants/surface_mutants.h"
 
 namespace trueshade::oracle {
 
@@ -159,9 +159,7 @@ Capture depth_not_tested(const Scene& s, const Pipeline& p, const Renderer& rend
   return out;
 }
 
-constexpr auto kNone = Latitude::none;
-
-constexpr GlassMutant kMutants[] = {
+constexpr GlassMutant kGlassMutants[] = {
     {"glass drawn in reverse", kNone, reversed, nullptr},
     {"alpha and 1 - alpha exchanged", kNone, factors_exchanged, nullptr},
     {"glass added", kNone, added, nullptr},
@@ -223,6 +221,6 @@ void add_glass(Scene& scene) {
   stand(first, 1.0f, 0.0f, 0.05f, 0.6f, 0.6f);
 }
 
-std::span<const GlassMutant> glass_mutants() { return kMutants; }
+std::span<const GlassMutant> glass_mutants() { return kGlassMutants; }
 
 }  // namespace trueshade::oracle

@@ -12,8 +12,6 @@ namespace {
 
 // --- what the renderer is given -------------------------------------------------------------------------------------
 
-bool lamp(const Light& l) { return l.type == LightType::point || l.type == LightType::spot; }
-
 /// The lamp nearest to what the camera looks at: one that matters.
 size_t main_lamp(const Scene& scene) {
   size_t best = 0;
@@ -21,7 +19,7 @@ size_t main_lamp(const Scene& scene) {
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const glm::vec3 d = scene.lights[i].position - scene.camera.target;
     const float d2 = d.x * d.x + d.y * d.y + d.z * d.z;
-    if (lamp(scene.lights[i]) && d2 < least) least = d2, best = i;
+    if (is_lamp(scene.lights[i]) && d2 < least) least = d2, best = i;
   }
   return best;
 }
@@ -29,7 +27,7 @@ size_t main_lamp(const Scene& scene) {
 template <class Change>
 void each_lamp(Scene& scene, const Change& change) {
   for (Light& l : scene.lights)
-    if (lamp(l)) change(l);
+    if (is_lamp(l)) change(l);
 }
 
 void light_missing(Scene& s, Pipeline&) {
@@ -317,7 +315,6 @@ void neighbours_mixed(const Pipeline&, Capture& c) {
 }
 
 constexpr auto kStated = Latitude::stated_rules;
-constexpr auto kNone = Latitude::none;
 
 constexpr Mutant kMutants[] = {
     {"light missing", kNone, nullptr, light_missing, nullptr},

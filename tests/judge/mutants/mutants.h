@@ -21,6 +21,10 @@ enum class Latitude : uint8_t {
                  ///< where it does not
   always_legal,  ///< never to be rejected: the order of lights
 };
+inline constexpr Latitude kNone = Latitude::none;  ///< in tables of mutants
+
+/// Point lights and spots.
+inline bool is_lamp(const Light& l) { return l.type == LightType::point || l.type == LightType::spot; }
 
 struct Mutant {
   std::string_view name;

@@ -230,11 +230,9 @@ void stored_in_8_bits(const Pipeline&, Capture& c) {
   store_normals(c, [](double n) { return std::nearbyint(1023.0 / 255 * std::nearbyint(255 * (0.5 + 0.5 * n))); });
 }
 
-void other_normal_length(Scene&, Pipeline& p) { p.light_model.renormalize = false; }
+void normals_not_made_unit(Scene&, Pipeline& p) { p.light_model.renormalize = false; }
 
-constexpr auto kNone = Latitude::none;
-
-constexpr Mutant kMutants[] = {
+constexpr Mutant kSurfaceMutants[] = {
     {"normal map's green turned", kNone, add_bumps, green_turned, nullptr},
     {"normal map's red turned", kNone, add_bumps, red_turned, nullptr},
     {"normal map's red and green exchanged", kNone, add_bumps, axes_swapped, nullptr},
@@ -260,7 +258,7 @@ constexpr Mutant kMutants[] = {
     {"ten-bit normals stored as n", kNone, ten_bits, float_normals, stored_whole},
     {"ten-bit normals stored about 512", kNone, ten_bits, float_normals, stored_about_512},
     {"ten-bit normals of eight bits", kNone, ten_bits, float_normals, stored_in_8_bits},
-    {"ten-bit normals not made unit", Latitude::stated_rules, ten_bits_on_curves, other_normal_length, nullptr},
+    {"ten-bit normals not made unit", Latitude::stated_rules, ten_bits_on_curves, normals_not_made_unit, nullptr},
     {"backs' normals not turned", kNone, show_backs, backs_not_turned, nullptr},
     {"double-sided backs culled", kNone, show_backs, backs_culled, nullptr},
     {"maps read at the first texture coordinates", kNone, use_second_uv, first_uv, nullptr},
@@ -351,6 +349,6 @@ void mix_extents(Scene& scene, Pipeline& pipeline) {
   pipeline.light_volumes.cull_face = CullFace::front;
 }
 
-std::span<const Mutant> surface_mutants() { return kMutants; }
+std::span<const Mutant> surface_mutants() { return kSurfaceMutants; }
 
 }  // namespace trueshade::oracle

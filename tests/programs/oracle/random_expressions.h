@@ -16,6 +16,7 @@ struct GlslType {
   int scalars() const { return columns * rows; }
   std::string name() const;
 };
+inline constexpr GlslType kFloat{'f', 1, 1}, kInt{'i', 1, 1}, kBool{'b', 1, 1};
 
 /// What an expression may read, and a statement write where it is `writable`.
 struct GlslVariable {

@@ -9,7 +9,7 @@ namespace trueshade::testing {
 
 namespace {
 
-constexpr GlslType kFloat{'f', 1, 1}, kInt{'i', 1, 1}, kBool{'b', 1, 1}, kVec3{'f', 1, 3}, kVec4{'f', 1, 4};
+constexpr GlslType kVec3{'f', 1, 3}, kVec4{'f', 1, 4};
 
 /// Writes a whole file.
 class RandomFile : RandomStatements {

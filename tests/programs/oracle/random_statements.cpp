@@ -6,7 +6,6 @@ namespace trueshade::testing {
 
 namespace {
 
-constexpr GlslType kFloat{'f', 1, 1}, kInt{'i', 1, 1}, kBool{'b', 1, 1};
 constexpr const char* kCompound[] = {"+", "-", "*", "/"};
 constexpr const char* kIntegerCompound[] = {"+", "-", "*", "&", "|", "^", "<<"};
 
