@@ -1,5 +1,7 @@
 #include "scene_cache/checked_clusters.h"
 
+#include "scenes/scene_defaults.h"
+
 namespace trueshade {
 
 void CheckedClusters::check(const Scene& scene, const Instance& instance, const ClusteredMesh& mesh,

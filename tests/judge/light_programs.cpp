@@ -208,9 +208,7 @@ TEST_CASE("What a driver may compute of a light program lies within its bounds, 
   for (const char* profile : {"unknown", "webgpu"}) check_held(profile, 20000);
 }
 
-TEST_CASE(
-    "Light programs judged_by_any_driver in lanes have the lights and branches of one by one, and bounds about as "
-    "large") {
+TEST_CASE("Light programs judged in lanes have the lights and branches of one by one, and bounds about as large") {
   for (const std::string_view target : simd_targets()) {
     const SimdScope scope(target);
     for (size_t m = 0; m < 2 * std::size(kModels); ++m) {
@@ -482,7 +480,7 @@ TEST_CASE("Where a light program may give NaN nothing is convicted, and nothing 
   CHECK(verdict.stages.at(1).count(PixelClass::undefined) > verdict.stages.at(1).covered / 2);
 }
 
-TEST_CASE("What finish() takes from the surface alone is of the surface that is judged_by_any_driver") {
+TEST_CASE("What finish() takes from the surface alone is of the surface that is judged") {
   LightProgram program = model("ggx");
   program.text += "vec4 finish(Surface s, View v, vec3 sum) { return vec4(sum, s.albedo.g); }\n";
   const Scene scene = test_scene();
