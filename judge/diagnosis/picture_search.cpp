@@ -54,8 +54,9 @@ double parameter_cost(Search search) {
   }
 }
 
-/// Whether what a fault changes is in a light program too, and not a term of a light model. Sums before finish() are
-/// not followed light by light.
+/// Whether a fault can be supposed where a light program draws: it changes no term of the light model. Where the
+/// program defines finish(), a fault of single lights cannot, since sums before finish() are not followed light by
+/// light.
 bool holds_for_programs(const PictureFault& fault, const LightPass& pass) {
   constexpr Search kByLight[] = {Search::missing_light, Search::doubled_light, Search::count, Search::count_at_pixel,
                                  Search::one_light};
@@ -84,7 +85,8 @@ class PictureSearch {
   }
 
   double changed() const { return changed_; }
-  /// Without findings that no pixel shows.
+  /// The one fault, or the two together, that explain the picture best, and rivals of a single one. Leaves out findings
+  /// that no sampled pixel proves.
   std::vector<Finding> look() const;
   std::vector<Finding> findings(std::span<const NamedFault> faults) const;
 
@@ -108,7 +110,7 @@ class PictureSearch {
   PictureCase& picture_;
   std::vector<double> off_few_, off_;
   double changed_ = 0, changed_few_ = 0, same_ = 0;
-  double cost_ = 0;  ///< where nothing is wrong
+  double cost_ = 0;  ///< of the prediction without a fault
 };
 
 std::vector<double> PictureSearch::off(const std::vector<SampledPixel>& pixels) const {
@@ -136,7 +138,8 @@ Candidate PictureSearch::judged(std::vector<NamedFault> faults, const PictureSup
   return c;
 }
 
-/// Every fault beside those that are supposed, by a first look, the best first.
+/// Each fault that is not among `faults`, supposed together with them, with the parameters that are likely; judged by
+/// the few pixels, the cheapest first.
 std::vector<Candidate> PictureSearch::beside(std::span<const NamedFault> faults) const {
   const std::vector<const PictureFault*> rows = all_faults();
   PictureSupposition base = supposed(faults);
@@ -165,7 +168,7 @@ std::vector<Candidate> PictureSearch::beside(std::span<const NamedFault> faults)
   return candidates;
 }
 
-/// The parameters of two faults again, each beside the other.
+/// Estimates each fault's parameter again, with the candidate's other faults supposed, and keeps what costs less.
 void PictureSearch::refine(Candidate& candidate) const {
   for (size_t turn = 0; turn < candidate.faults.size(); ++turn) {
     NamedFault& fault = candidate.faults[turn];
@@ -183,8 +186,9 @@ void PictureSearch::refine(Candidate& candidate) const {
   }
 }
 
-/// The pixel that is farthest off where nothing is wrong, of those that the faults explain.
-///   too_few: faults that do not explain the pixel; empty: any will do
+/// The pixel that shows the faults best: of those that they explain, the one farthest off without a fault. Its plane is
+/// empty where there is no such pixel.
+///   too_few: pixels that these faults explain do not count; empty: all count
 Proof PictureSearch::proof(std::span<const NamedFault> faults, std::span<const NamedFault> too_few) const {
   const PictureSupposition right = picture_.right(), all = supposed(faults), few = supposed(too_few);
   Proof proof;
@@ -208,8 +212,8 @@ Proof PictureSearch::proof(std::span<const NamedFault> faults, std::span<const N
   return proof;
 }
 
-/// Of the pixels that are not as they should be, how many as the faults have them are far off, those too that were
-/// right.
+/// How many pixels are far off under the faults, also ones that were right without, as a share of the pixels that are
+/// wrong without. 0 where they are so few that it may be by chance.
 double PictureSearch::left(std::span<const NamedFault> faults) const {
   const std::vector<double> now = picture_.steps_off(supposed(faults), picture_.sample());
   double weight = 0;
@@ -225,7 +229,7 @@ double PictureSearch::left(std::span<const NamedFault> faults) const {
   return by_chance ? 0 : weight / changed_;
 }
 
-/// The fault with those that come before it.
+/// The finding about faults[which], judged together with the faults before it.
 Finding PictureSearch::finding(std::span<const NamedFault> faults, size_t which) const {
   const NamedFault& fault = faults[which];
   const auto up_to_it = faults.first(which + 1), before = faults.first(which);
@@ -249,8 +253,9 @@ std::vector<Finding> PictureSearch::findings(std::span<const NamedFault> faults)
   return findings;
 }
 
-/// Whether half of what it explains may be chance: where values are off by a code, any factor near 1 is right for many.
-/// Two explain more by chance than one.
+/// Whether half of what a candidate explains may be chance: where values are off by a code, any factor near 1 is right
+/// for many of them. Two faults explain more by chance than one.
+///   cost_of_right: what the prediction without a fault costs
 bool explains_by_chance(const Candidate& c, double cost_of_right) {
   const auto near_one = [](const NamedFault& f) {
     return f.fault->search == Search::smooth && std::fabs(f.parameter.number - 1) < kNearOne;
@@ -259,8 +264,8 @@ bool explains_by_chance(const Candidate& c, double cost_of_right) {
          c.found.cost > (c.faults.size() == 1 ? kLeftByFew : kLeftByTwo) * cost_of_right;
 }
 
-/// Of single faults those that may be named, ranked. Dithering explains what is off by a code: it comes after every
-/// fault that predicts values.
+/// Those single faults that explain enough and cost about as little as the best, the best first. A dither explains
+/// whatever is off by a code, so it comes after every fault that predicts values.
 std::vector<Candidate> PictureSearch::named(std::vector<Candidate> singles) const {
   std::erase_if(singles, [&](const Candidate& c) { return !explains(c) || explains_by_chance(c, cost_); });
   std::stable_sort(singles.begin(), singles.end(), [](const Candidate& a, const Candidate& b) {
@@ -273,7 +278,8 @@ std::vector<Candidate> PictureSearch::named(std::vector<Candidate> singles) cons
   return singles;
 }
 
-/// Whether any pixel of the sample tells which of two it is.
+/// Whether two candidates predict different pixels anywhere in the sample; true where one supposes stale tiles, of
+/// which it predicts nothing.
 bool PictureSearch::told_apart(const Candidate& a, const Candidate& b) const {
   const PictureSupposition one = supposed(a.faults), other = supposed(b.faults);
   if (one.stale > 0 || other.stale > 0) return true;
@@ -285,7 +291,8 @@ bool PictureSearch::told_apart(const Candidate& a, const Candidate& b) const {
   return differs;
 }
 
-/// The first with those that no pixel tells from it, one by each name, and then the others.
+/// Findings about candidates that are ranked already: the first; those that no pixel tells from the first, marked as
+/// tied, one for each fault; and then the others.
 std::vector<Finding> PictureSearch::ranked(std::vector<Candidate> singles) const {
   std::vector<Finding> first, others;
   std::vector<const PictureFault*> said;
