@@ -35,7 +35,7 @@ void mark_changes(const Image& a, const Image& b, std::vector<bool>& changed) {
     if (std::memcmp(&a.texels[i * texel], &b.texels[i * texel], texel) != 0) changed[i] = true;
 }
 
-/// Pixels that are not the same, bit for bit, in two captures of one driver, but for those that the first leaves out.
+/// How many pixels differ in a bit between two captures of one driver, without those that a's mask leaves out.
 uint64_t changed_pixels(const oracle::Capture& a, const oracle::Capture& b) {
   std::vector<bool> changed(size_t(a.color.width) * size_t(a.color.height));
   mark_changes(a.color, b.color, changed);
@@ -45,7 +45,8 @@ uint64_t changed_pixels(const oracle::Capture& a, const oracle::Capture& b) {
   return uint64_t(std::count(changed.begin(), changed.end(), true));
 }
 
-/// Passes of the frame of median time, out of those that fit the budget; `first` where none does.
+/// Draws up to kRepeats frames within the budget, and returns the passes of the one of median time; `first` where the
+/// first frame has used the budget up. `frames` receives how many frames the median is of.
 std::vector<oracle::GlPass> timed_passes(oracle::GlRenderer& renderer, const Pipeline& pipeline,
                                          const std::vector<oracle::GlPass>& first, int& frames) {
   frames = 1;

@@ -14,15 +14,16 @@ namespace trueshade {
 struct DriverFrame {
   struct Pass {
     std::string name;
-    double ms = 0;  ///< median of the frames after the first, which pays for compiling; of the first where it took long
+    double ms = 0;  ///< in the median frame without the first, which pays for compiling; in the first if slow
   };
   oracle::Capture capture;
   int subpixel_bits = 0;  ///< GL_SUBPIXEL_BITS
-  int timed_frames = 0;   ///< how many the median is of
+  int timed_frames = 0;   ///< how many frames the median is taken of
   std::vector<Pass> passes;
-  /// Pixels of which something stored differs from that of `first`, this capture: in the same frame drawn again, which
-  /// OpenGL rules out (4.6 core, appendix A, rule 1), and in one moved by whole pixels (14.2), which drivers are known
-  /// not to keep. They draw when called, but for a repeated frame that `steps` drew meanwhile, if it is the same.
+  /// Draw another frame when they are called, and return how many pixels it stores otherwise than `first`, this
+  /// capture: the same frame, which OpenGL requires to be equal (4.6 core, appendix A, rule 1), or one moved by whole
+  /// pixels (14.2), which drivers are known to draw otherwise. repeat_changes takes a frame that `steps` has drawn, if
+  /// it is equal.
   std::function<uint64_t(const oracle::Capture&first)> repeat_changes, move_changes;
   std::vector<std::string> notes;  ///< what the driver could not do, and what was done instead
   oracle::LightSteps steps;        ///< of strategies that draw light by light

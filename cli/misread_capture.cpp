@@ -20,12 +20,13 @@ constexpr double kMostLeft = 0.1;     // of the pixels that are wrong
 
 bool tells_surface(std::string_view plane) { return plane == "depth" || plane == "id.object"; }
 
-/// The G-buffer's stage leaves out positions that are rebuilt from a depth: the lights tell.
+/// Whether a plane is judged by the stage of the lights: a position that is rebuilt from a depth, which the G-buffer's
+/// stage leaves out.
 bool is_told_by_light(const MappedPlane& plane) {
   return plane.plane == "position" && plane.depth != CapturedDepth::none;
 }
 
-/// Of a large picture about a seventh, in squares.
+/// Leaves out all of a large picture but squares that make up a seventh of it; of a small picture nothing.
 void leave_out_most(PixelMask& mask, int width, int height) {
   constexpr int kSide = 16, kOf = 7, kSmall = 1 << 16;
   if (width * height <= kSmall) return;
@@ -73,7 +74,8 @@ class Rereader {
     }
   };
 
-  /// Of planes as they are mapped; nothing where they cannot be read so, as distances that no surface has.
+  /// Counts what is wrong if the planes are read as they are mapped. Nothing where they cannot be read so, say as
+  /// distances that no surface has, or where no pixel is judged.
   std::optional<Wrong> wrong(Planes planes, bool by_light) {
     oracle::Capture capture;
     try {
@@ -107,8 +109,8 @@ class Rereader {
     return f;
   }
 
-  /// Rows the other way round, if that is where the surfaces are. Planes that are computed from others and the pixel's
-  /// place must be read again for it; turning them over would not do.
+  /// The finding that the rows run the other way, if depth or identifiers fit better so. The files are read again for
+  /// it: planes that are computed from others and the pixel's place cannot be turned over.
   std::optional<Finding> upside_down() {
     Planes surfaces = planes_;
     std::erase_if(surfaces, [](const PlaneChannelList& plane) { return !tells_surface(plane.mapped.plane); });
@@ -129,7 +131,8 @@ class Rereader {
     return f;
   }
 
-  /// Other words of a plane, those that change the fewest kinds of words. The plane is read so from then on.
+  /// The finding that a plane fits better with other words, of which the fewest kinds are changed. From then on the
+  /// plane is read by these words.
   std::optional<Finding> other_words(PlaneChannelList& plane) {
     // A depth may be a part of the far distance, and lengths in other units: centimetres, millimetres, hundreds.
     const double factors[] = {double(scene_.camera.far), 0.01, 0.001, 100, 1000, 1};

@@ -8,10 +8,11 @@
 
 namespace trueshade {
 
-/// How a capture's files should have been read, where another reading of them has at most a tenth of the pixels that
-/// are in no legal set: rows the other way round, or else other words of `--map`, a finding a plane. Empty where the
-/// files were read as well as they can be, and where they can be read but once. Reads them again.
-///   left_out: the mask of a capture that was read otherwise
+/// Reads a capture's files again in other ways, and tells how they should have been read: with the rows the other way
+/// round, or else with other words of `--map`, a finding for each plane. A reading is better if it leaves at most a
+/// tenth of the pixels in no legal set. Empty where none is better, and for files that can be read but once, such as
+/// pipes.
+///   left_out: makes the mask of a capture that was read otherwise
 std::vector<oracle::Finding> misread_findings(const ValidationOptions& options, const Scene& scene, const Validation& v,
                                               const std::function<PixelMask(const oracle::Capture&)>& left_out);
 

@@ -9,7 +9,7 @@
 namespace trueshade {
 namespace {
 
-/// Pixels that are not the same, bit for bit.
+/// How many pixels differ in a bit between two captures.
 uint64_t differing_pixels(const oracle::Capture& a, const oracle::Capture& b) {
   std::vector<bool> differs(size_t(a.color.width) * size_t(a.color.height));
   const auto mark = [&](const Image& x, const Image& y) {

@@ -113,7 +113,7 @@ std::string account_text(const Account& account) {
 
 namespace {
 
-/// `told`: names whose meaning an earlier step has given.
+/// Appends one step as account_json() has it. `told`: names whose meaning is written already; receives this step's.
 void write_json(const Account& account, std::set<std::string>& told, std::string& out) {
   out += "{\"step\": " + json_string(account.key) + ", \"title\": " + json_string(account.title);
   std::string values, meanings;

@@ -59,7 +59,7 @@ struct Account {
   Account& add(std::string_view name, const std::array<T, n>& values, std::string_view meaning) {
     return add(name, std::span<const T>(values), meaning);
   }
-  /// A smaller step, at the end. The reference holds until the next one.
+  /// Adds an empty smaller step at the end and returns it. The reference is valid until the next call.
   Account& part(std::string of_key, std::string of_title) {
     return parts.emplace_back(std::move(of_key), std::move(of_title));
   }

@@ -8,7 +8,7 @@ namespace {
 
 constexpr size_t kMostLightsListed = 64;
 
-/// Names of what a light that adds nothing is listed under.
+/// The name of the quantity that lists the lights of this fate, which add nothing.
 const char* list_name(LightFate fate) {
   switch (fate) {
     case LightFate::out_of_reach:
@@ -35,7 +35,8 @@ std::optional<size_t> strongest(const LightTotal& total) {
   return out;
 }
 
-/// The lights that are parts: all, or those that add most, in the order of their indices.
+/// The lights that get a part of their own, by ascending index: all, or those that add something, of which the 64 that
+/// add most.
 std::vector<size_t> listed(const LightTotal& total, Detail detail) {
   std::vector<size_t> out;
   for (size_t i = 0; i < total.lights.size(); ++i)

@@ -18,7 +18,7 @@ using programs::ProgramNode;
 
 float float_of(uint32_t bits) { return std::bit_cast<float>(bits); }
 
-/// The sign of a NaN is none of the renderer's.
+/// A number in words; NaN without a sign, since the renderer leaves its sign open.
 std::string number_text(float value) { return std::isnan(value) ? "NaN" : value_text(value); }
 
 std::string numbers_text(std::span<const float> values) {
@@ -31,13 +31,14 @@ bool is_finite(std::span<const float> values) {
   return std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); });
 }
 
-/// The values of a program's nodes, and where they stop to be finite.
+/// Finds the node of a program at which its values stop being finite.
 class Origins {
  public:
   Origins(const Program& program, const NodeBits& bits) : program_(program), bits_(bits) {}
 
-  /// The first operation, in the order of computation, that makes what is not finite of finite numbers and inputs,
-  /// among those that the outputs come from; an input that is NaN itself. Nothing where the outputs are finite.
+  /// The first operation, in the order of computation, that makes a value that is not finite of finite operands;
+  /// infinite inputs and constants count as finite. Or an input that is NaN. Looks at what `count` outputs from number
+  /// `first` on come from; nothing where these are finite.
   std::optional<NodeId> of(int first, int count) const {
     std::vector<bool> seen(program_.nodes.size());
     std::vector<NodeId> left;
@@ -84,7 +85,7 @@ class Origins {
   bool is_lost(NodeId id) const {
     return program_.nodes[id].type == programs::Type::f32 && !std::isfinite(float_of(bits_[id]));
   }
-  /// Of a choice the side that was taken.
+  /// The operands that a node's value comes from: all of them; for a choice, the side that was taken.
   std::vector<NodeId> followed(NodeId id) const {
     const ProgramNode& node = program_.nodes[id];
     if (node.op == Op::select) return {node.operand[bits_[node.operand[0]] != 0 ? 1 : 2]};
@@ -95,7 +96,7 @@ class Origins {
   const NodeBits& bits_;
 };
 
-/// Where a surface's light stops to be finite.
+/// Where the light of a pixel stops being finite.
 struct Loss {
   std::string of;  ///< which step made it
   std::vector<float> values;
@@ -154,7 +155,7 @@ class LossFinder {
   const LightTotal& total_;
 };
 
-/// Draws whose colours are finite, and that the target's format holds as infinity.
+/// The first draw of a finite color after which the target holds a value that is not finite; nothing for unorm targets.
 std::optional<Loss> in_target(const ExplainedFrame& frame, const PixelHistory& history) {
   if (info(frame.target.format).number_class == NumberClass::unorm) return std::nullopt;
   for (const TargetDraw& draw : history.draws) {

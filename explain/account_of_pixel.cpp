@@ -41,7 +41,8 @@ std::string frame_title(const ExplainedFrame& frame, const PixelHistory& history
          std::to_string(history.pixel.x) + ',' + std::to_string(p.height - 1 - history.pixel.y);
 }
 
-/// What most people ask: what is seen, and which lights make it bright.
+/// Adds what most people ask: the transparent surfaces in front, the surface that is seen, how many lights add to it,
+/// and the eight that add most. Without a visible surface, adds that nothing is seen and leaves out the lights.
 void add_summary(const ExplainedFrame& frame, const PixelHistory& history, Account& to) {
   std::vector<std::string> through;
   for (const size_t i : history.glass_at) {
@@ -66,7 +67,8 @@ void add_summary(const ExplainedFrame& frame, const PixelHistory& history, Accou
   if (!adding.empty()) to.add("strongest", adding, "indices of those that add most, the strongest first");
 }
 
-/// Surface and lights of every surface that light comes from.
+/// Adds parts for every surface that light comes from: the visible one, those tied with it, and transparent ones; each
+/// with its planes and its lights.
 void add_surfaces(const ExplainedFrame& frame, const PixelHistory& history, Detail detail, Account& to) {
   const GBufferState planes = surface_planes(frame.pipeline);
   const LightsReach reach = blends_lights(frame.pipeline.strategy) ? LightsReach::one_by_one : LightsReach::as_a_sum;

@@ -13,7 +13,14 @@ namespace {
 
 constexpr size_t kMostSteps = 60;
 
-/// Two digits tell how near half a place it was.
+std::string joined(const std::vector<AccountValue>& values) {
+  std::string out;
+  for (const AccountValue& value : values) out += (out.empty() ? "" : ", ") + value_text(value);
+  return out;
+}
+
+/// The roundings of a step's components in words: `exact`, or two digits each, which tell how near to half a unit of
+/// the last place the rounding was; `-` for NaN.
 std::string rounding_text(const std::vector<double>& rounding) {
   if (rounding.empty()) return {};
   if (std::all_of(rounding.begin(), rounding.end(), [](double r) { return r == 0.0; })) return "exact";
@@ -45,7 +52,8 @@ void add_step(const ProgramStep& step, size_t number, Account& to) {
   line += step.expression;
 }
 
-/// Steps of instructions; where these are many and not all are asked for, of whole expressions.
+/// The steps that the wanted nodes come from: a step an instruction or, where these are more than kMostSteps and
+/// `detail` is `usual`, a step an expression.
 ProgramTrace trace_for(Detail detail, const ProgramAtSurface& at, const NodeBits& bits,
                        std::span<const programs::NodeId> wanted) {
   ProgramTrace trace = trace_of(at.program(), bits, wanted);
@@ -53,7 +61,8 @@ ProgramTrace trace_for(Detail detail, const ProgramAtSurface& at, const NodeBits
   return trace_of(at.program(), bits, wanted, StepSize::expression);
 }
 
-/// The steps that are told: all, or those that another line reads, the last of them.
+/// The indices of the steps to print: all, if few or if `detail` asks for them; else those that another line reads, and
+/// of these the last kMostSteps.
 std::vector<size_t> told(const ProgramTrace& trace, Detail detail) {
   std::vector<size_t> out(trace.steps.size());
   std::iota(out.begin(), out.end(), size_t(0));
@@ -63,7 +72,9 @@ std::vector<size_t> told(const ProgramTrace& trace, Detail detail) {
   return out;
 }
 
-/// The lines that some outputs come from, in the order in which they are computed, each with its steps.
+/// Adds a part with the program's lines that `count` outputs from number `first` on come from, in the order in which
+/// they are computed, each with its steps.
+///   function: the name of the function that returns these outputs, for titles
 void add_lines(const ExplainedFrame& frame, const ProgramAtSurface& at, const NodeBits& bits, const char* function,
                int first, int count, Detail detail, Account& to) {
   const programs::Program& program = at.program();

@@ -93,7 +93,8 @@ std::string outcome_words(const PixelHistory& history, Surfaces which, size_t in
   return transparent ? "drawn" : "drawn, and later hidden";
 }
 
-/// The covering triangles that are parts: all, or those drawn last, and those that light comes from.
+/// The covering triangles that get a part of their own, by index, in the order of submission: all, or the 64 last and
+/// those that light comes from.
 std::vector<size_t> listed(const PixelHistory& history, Surfaces which, Detail detail) {
   const std::vector<DepthOutcome>& outcomes =
       which == Surfaces::transparent ? history.of_transparent : history.of_opaque;

@@ -15,12 +15,14 @@ Account triangles_account(const ExplainedFrame& frame, const PixelHistory& histo
 std::string name_of(const ExplainedFrame& frame, uint32_t instance, uint32_t triangle);
 
 /// Weights, attributes, maps and planes of a surface (account_of_surface.cpp).
-///   of: which surface that is, for the title; `planes` as it was rounded to
+///   planes: the formats that the surface was rounded to
+///   of:     which surface it is, for the title
 Account surface_account(const ExplainedFrame& frame, uint32_t instance, const PixelSurface& surface,
                         const GBufferState& planes, const std::string& of);
 
 /// The lights on one surface and their sum (account_of_lights.cpp).
-///   of: which surface that is; `sums`: whether the target receives the sum, or each light by itself
+///   reach: whether the target receives the sum, or each light by itself; then the sum is left out
+///   of:    which surface it is, for the title
 enum class LightsReach : uint8_t { as_a_sum, one_by_one };
 Account lights_account(const ExplainedFrame& frame, const LightTotal& total, LightsReach reach, const std::string& of,
                        Detail detail);
@@ -38,8 +40,8 @@ void add_program_sum(const ExplainedFrame& frame, const LightTotal& total, Detai
 /// A line of a program's text without its indent; empty for SPIR-V, and where there is none of that number.
 std::string source_line(const LightProgram& program, uint32_t line);
 
-/// Where the pixel's light first is NaN or infinite, and what is stored of it; nothing where all is finite
-/// (account_of_nonfinite.cpp).
+/// Adds where the pixel's light first is NaN or infinite, and what the target stores then; adds nothing where all is
+/// finite (account_of_nonfinite.cpp).
 void add_nonfinite(const ExplainedFrame& frame, const PixelHistory& history, Account& to);
 
 /// GL's name of a depth function.

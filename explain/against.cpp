@@ -21,13 +21,13 @@ bool is_same(const StoredPixel& a, const StoredPixel& b) {
   return true;
 }
 
-/// IEC 61966-2-1.
+/// A linear value, clamped to [0, 1], encoded as sRGB (IEC 61966-2-1).
 float srgb_of(float linear) {
   const double x = double(std::clamp(linear, 0.0f, 1.0f));
   return float(x <= 0.0031308 ? 12.92 * x : 1.055 * power(x, 1.0 / 2.4) - 0.055);
 }
 
-/// Collects what changes would make of one pixel.
+/// Collects candidates_for() one pixel: each try_ function adds those of its kind of change.
 class Search {
  public:
   Search(const ExplainedFrame& frame, const PixelHistory& history, const Image& reference, const StoredPixel& given)
@@ -87,7 +87,7 @@ class Search {
     add("transparent surfaces left out", drawn(opaque));
   }
 
-  /// The lights that add most to the visible surface.
+  /// The indices of the lights that add something to the visible surface, the strongest first, kMostLights at most.
   std::vector<size_t> strongest() const {
     const std::vector<LightAtPixel>& lights = history_.lit.visible.lights;
     std::vector<size_t> out;
@@ -111,7 +111,7 @@ class Search {
     with("no light counted");
   }
 
-  /// The same surfaces under another light model or other lights' extents.
+  /// Lights the same surfaces by a changed pipeline; for changes of the light model and of lights' extents.
   void try_model(const std::string& what, const std::function<void(Pipeline&)>& change) {
     Pipeline changed = frame_.pipeline;
     change(changed);
@@ -139,7 +139,7 @@ class Search {
     try_model("falloff inverse_square", [](Pipeline& p) { p.light_model.falloff = Falloff::inverse_square; });
   }
 
-  /// The whole pixel under another pipeline.
+  /// Draws the whole pixel again by another pipeline, at the frame's size, viewport and target format.
   void try_pipeline(const std::string& what, Pipeline changed) {
     changed.width = frame_.pipeline.width, changed.height = frame_.pipeline.height;
     changed.target = frame_.pipeline.target;
@@ -167,7 +167,8 @@ class Search {
     try_pipeline(nearest ? "halves rounded toward zero" : "halves rounded to nearest", changed);
   }
 
-  /// Values of other pixels: at most two of those beside this one, the nearest to what is given.
+  /// Values of other pixels: the mirrored ones, and the two within three pixels of this one that are nearest to
+  /// `given`.
   void try_places() {
     constexpr int kRadius = 3;
     constexpr size_t kMostBeside = 2;
@@ -192,7 +193,8 @@ class Search {
     found_.resize(std::min(found_.size(), before + kMostBeside));
   }
 
-  /// Stores of the same values by another rule; of the values that a shader would read, where lights are blended.
+  /// Stores of changed values, or by another rule. The values are the sum of the lights or, where lights or transparent
+  /// surfaces are blended, what a shader reads from the target.
   void try_stores() {
     const FormatInfo layout = info(frame_.target.format);
     const bool sums = !blends_lights(frame_.pipeline.strategy) && surfaces_.covered && surfaces_.glass.empty();

@@ -15,7 +15,7 @@ StoredPixel after_draw(const BlendState& state, const BlendTarget& target, const
 /// What a draw without blending stores.
 StoredPixel stored_alone(const BlendTarget& target, const std::array<float, 4>& source);
 
-/// What a shader reads of it.
+/// What a shader reads of a stored pixel: R, G, B, A.
 std::array<float, 4> values_of(const BlendTarget& target, const StoredPixel& stored);
 
 }  // namespace trueshade

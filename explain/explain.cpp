@@ -6,7 +6,7 @@
 namespace trueshade {
 namespace {
 
-/// GL 4.6 core, 17.3.4.
+/// Whether depth z passes the depth test against the stored depth `there` (GL 4.6 core, 17.3.4).
 bool passes_depth(DepthFunc func, float z, float there) {
   switch (func) {
     case DepthFunc::never:
@@ -50,7 +50,8 @@ void find_visible(const ExplainedFrame& frame, PixelHistory& out) {
   }
 }
 
-/// The fragments that every light but the first draws: those at the stored depth.
+/// For forward-multipass: sets out.tied_at and out.tied to the fragments at the stored depth, which every light but the
+/// first draws. Leaves them empty where the visible fragment is the only one.
 void find_tied(const ExplainedFrame& frame, const GBufferState& planes, PixelHistory& out) {
   for (size_t i = 0; i < out.opaque.covering.size(); ++i)
     if (tested(frame, out.opaque.covering[i], out.pixel, DepthFunc::equal, out.depth).drawn) out.tied_at.push_back(i);
@@ -72,7 +73,7 @@ void find_glass(const ExplainedFrame& frame, PixelHistory& out) {
   }
 }
 
-/// Blends transparent fragments into the albedo that lights read.
+/// Blends the transparent fragments into the albedo that lights read of the visible surface, and records the draws.
 void tint_albedo(const ExplainedFrame& frame, const GBufferState& planes, PixelHistory& out) {
   const BlendTarget plane{planes.albedo.format, frame.pipeline.profile, planes.half_round};
   StoredPixel stored = stored_alone(plane, out.surface.computed.albedo);

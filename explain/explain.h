@@ -38,7 +38,8 @@ struct PixelHistory {
 /// is not in the picture. The stored pixel is what render_frame() stores, bit for bit (tests/explain).
 PixelHistory history_of(const ExplainedFrame& frame, int x, int y);
 
-/// The surfaces that light a history's target.
+/// The surfaces of a history as lit_surfaces() takes them: the visible one, tied ones, and glass blended after the
+/// lights.
 PixelSurfaces surfaces_to_light(const ExplainedFrame& frame, const PixelHistory& history);
 
 /// A stored pixel as its format has it: codes, or floats.

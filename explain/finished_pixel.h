@@ -7,8 +7,10 @@
 
 namespace trueshade {
 
-/// What is explained is the target; where a post chain follows, the picture's value comes last in the account instead.
-/// `pipeline`: with the chain; (x, y) of the picture, from the top left.
+/// Where the pipeline has a post chain, appends the picture's pixel to the target's account as `stored`, and renames
+/// the target's own value to `target`. Draws the whole picture for it. Without a post chain, does nothing.
+///   pipeline: with the post chain
+///   x, y:     of the picture, from the top left
 void add_finished_pixel(const Scene& scene, const Pipeline& pipeline, int x, int y, Account& account);
 
 /// account_text(), and a line with the stored pixel: it is among the first lines, where people look for it, and the

@@ -14,7 +14,8 @@ constexpr float kAnywhere = std::numeric_limits<float>::quiet_NaN();
 constexpr size_t kMostKept = 8;  // of triangles that do not cover the sample
 constexpr double kSlack = 2.0;   // pixels: more than snapping moves a corner
 
-/// Where a vertex appears, in pixels, to about 1/256 pixel; kAnywhere where that is not known so simply.
+/// Where a vertex appears in the window, in pixels, to about 1/256 pixel; NaN (kAnywhere) near or behind the eye's
+/// plane, and far away.
 struct RoughPosition {
   float x, y;
 };
@@ -29,7 +30,8 @@ RoughPosition rough_position(const ClipVertex& v, const WindowTransform& t) {
   return {float(wx), float(wy)};
 }
 
-/// Whether a triangle's box surely leaves the sample out. A NaN answers no.
+/// Whether the box about a triangle's corners, kSlack pixels wider, leaves the sample (px, py) out. False where a
+/// corner is kAnywhere.
 bool boxed_elsewhere(const RoughPosition& a, const RoughPosition& b, const RoughPosition& c, double px, double py) {
   const auto beyond = [](double p, float u, float v, float w) {
     const double low = p - kSlack, high = p + kSlack;
@@ -43,7 +45,8 @@ bool finite(const ClipVertex& v) {
   return std::isfinite(v.c[0]) && std::isfinite(v.c[1]) && std::isfinite(v.c[2]) && std::isfinite(v.c[3]);
 }
 
-/// Whether all corners are beyond one plane: a quick answer for what clipping would leave nothing of.
+/// Whether all corners are behind the eye, all before the near plane or all beyond the far plane, so that clipping
+/// would leave nothing.
 bool all_beyond_a_plane(const ClipVertex v[3], const WindowTransform& t) {
   const auto all = [&](auto beyond) { return beyond(v[0].c) && beyond(v[1].c) && beyond(v[2].c); };
   if (all([](const float* c) { return c[3] < 0x1p-126f; })) return true;
@@ -52,8 +55,9 @@ bool all_beyond_a_plane(const ClipVertex v[3], const WindowTransform& t) {
          all([&](const float* c) { return t.zero_to_one ? c[2] < 0.0f : c[2] < -c[3]; });
 }
 
-/// The pieces that cover the sample, counted with the signs of their areas: the polygon covers it if the sum has the
-/// sign of the polygon's area, and the first piece of that sign gives the values.
+/// Sets fate, piece, edges and distance of a fragment by the pieces of its fan. The polygon covers the sample if the
+/// signs of the pieces that do add up to the sign of the polygon's area; then the first of these pieces of that sign
+/// gives the values. Where it does not cover the sample, the nearest piece gives them.
 void cover(const WindowTransform& window, PixelFragment& out) {
   int winding = 0, drawn = -1;
   out.distance = std::numeric_limits<double>::infinity();
@@ -126,7 +130,7 @@ bool is_asked(const ExplainedFrame& frame, const Instance& instance, Surfaces wh
   return apart == (which == Surfaces::transparent);
 }
 
-/// Asks the triangles of one instance. `clip` and `rough` are scratch.
+/// Adds what becomes of each triangle of one instance to `out`. `clip` and `rough` are scratch.
 void ask_instance(const ExplainedFrame& frame, uint32_t instance, WindowPixel pixel, std::vector<ClipVertex>& clip,
                   std::vector<RoughPosition>& rough, PixelTriangles& out) {
   const Mesh& mesh = frame.scene.meshes[frame.scene.instances[instance].mesh];

@@ -8,8 +8,8 @@
 
 namespace trueshade {
 
-/// Why a light adds something to a pixel, or does not. Of the last three the first that holds: a light that adds
-/// nothing to a surface that faces away from it is `faces_away`, whatever made the light's term 0.
+/// Why a light adds something to a pixel, or does not. A light in reach whose term is 0 gets the first fate that
+/// applies of faces_away, behind_light, outside_cone and gives_nothing, whatever made the term 0.
 enum class LightFate : uint8_t {
   adds,
   out_of_reach,   ///< the squared distance is not below the falloff's or the extent's end, or not finite
@@ -29,17 +29,17 @@ struct LightAtPixel {
   std::array<float, 3> term{};  ///< R, G, B; 0 where it is out of reach
 };
 
-/// Whether the light's table leaves the surface to it: it has no place, or the squared distance is below its cut.
-/// Sets `d`.
+/// Whether a light reaches the surface: it has no place, or the squared distance is below the row's cut2. Sets at.d for
+/// a light that has a place.
 bool in_reach(const LightRow& light, const SurfacePlanes& surface, LightAtPixel& at);
 
-/// Of a light that adds nothing, though it is in reach.
+/// The fate of a light that adds nothing although it is in reach: any of the last four.
 LightFate fate_without_light(const Light& light, const SurfacePlanes& surface);
 
 /// The measure by which lights are ordered: |R| + |G| + |B| of the light's term, or infinity where this sum is NaN.
 float strength(const LightAtPixel& light);
 
-/// Whether the light's extent leaves the pixel in its draw.
+/// Whether the surface lies within the light's extent, so that the light's draw keeps the pixel.
 bool inside_extent(const LightRow& light, const SurfacePlanes& surface);
 
 }  // namespace trueshade

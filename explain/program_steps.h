@@ -26,8 +26,9 @@ struct ProgramTrace {
   std::string result;              ///< what the nodes asked for are, in the words of expressions
 };
 
-/// What is a part of another step's expression: what one other operation of its line reads and that belongs to the same
-/// instruction or does not round; or whatever one other operation of its line reads.
+/// How much one step holds. An operation that only one other operation of its line reads becomes part of the reader's
+/// expression: at `instruction`, if both are of one instruction or it does not round; at `expression`, always. One step
+/// holds a bounded number of operations.
 enum class StepSize : uint8_t { instruction, expression };
 
 /// The steps that values of nodes come from. Of a choice only the side that was taken is followed: the other is `...`.

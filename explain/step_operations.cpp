@@ -14,7 +14,8 @@ struct Operator {
   Binding binding;
 };
 
-/// Operators of two operands; those that have no sign are written as functions.
+/// The sign and the binding of an operation of two operands. An empty sign: the operation has none, and is written as a
+/// function.
 Operator operator_of(Op op) {
   switch (op) {
     case Op::f_add:

@@ -12,7 +12,7 @@
 namespace trueshade {
 namespace {
 
-/// docs/arithmetic.md section 2.
+/// Makes a vector unit length as the renderer does (docs/arithmetic.md section 2); a vector of length 0 becomes 0.
 template <class Vector>
 void make_unit(Vector& n) {
   const float l2 = (n[0] * n[0] + n[1] * n[1]) + n[2] * n[2], inverse = l2 > 0.0f ? 1.0f / std::sqrt(l2) : 0.0f;
@@ -51,7 +51,7 @@ struct TriangleCorners {
   }
 
  private:
-  /// docs/arithmetic.md section 2.
+  /// Sets the world position and the normal of corner k (docs/arithmetic.md section 2).
   void place(size_t k) {
     const uint32_t v = index[k];
     const float x = mesh.position[0][v], y = mesh.position[1][v], z = mesh.position[2][v];
@@ -66,7 +66,7 @@ struct TriangleCorners {
   }
 };
 
-/// What interpolation of one fragment needs.
+/// Interpolates attributes at one fragment, each by attribute_at() or texture_point().
 struct Interpolator {
   const PixelFragment& fragment;
   const CornerWeights& weights;
@@ -115,7 +115,8 @@ const std::array<float, 4>* texel_of(const std::vector<MapLookup>& lookups, std:
   return found == lookups.end() ? nullptr : &found->texel;
 }
 
-/// What a material makes of the pixel: docs/arithmetic.md section 7. `out.albedo` is the base colour already.
+/// Sets what a material makes of the pixel: emission, specular and, of metals and unlit materials, albedo
+/// (docs/arithmetic.md section 7). out.albedo holds the base colour already.
 void apply_values(const MaterialValues& m, const LightModel& model, const std::vector<MapLookup>& lookups,
                   SurfacePlanes& out) {
   if (m.unlit) {
@@ -147,7 +148,7 @@ void apply_values(const MaterialValues& m, const LightModel& model, const std::v
   for (size_t c = 0; c < 4; ++c) out.specular[c] = map != nullptr && c < 3 ? m.specular[c] * (*map)[c] : m.specular[c];
 }
 
-/// docs/arithmetic.md section 7, "Position from depth".
+/// The world position that is rebuilt from a pixel's depth (docs/arithmetic.md section 7, "Position from depth").
 std::array<float, 3> position_from_depth(const ExplainedFrame& frame, float depth, WindowPixel pixel) {
   const WindowTransform& t = frame.view.window;
   const int64_t width = t.scale[0] / 128, height = std::abs(t.scale[1]) / 128;
@@ -166,7 +167,7 @@ std::array<float, 3> position_from_depth(const ExplainedFrame& frame, float dept
   return {h[0] * inverse, h[1] * inverse, h[2] * inverse};
 }
 
-/// Values as lights read them from a plane of a format.
+/// What lights read of `values` once a plane of the format has stored them.
 template <size_t n>
 std::array<float, n> read_from_plane(const std::array<float, n>& values, Format format, const ExplainedFrame& frame,
                                      HalfRound half_round) {

@@ -40,13 +40,13 @@ struct PixelSurface {
 PixelSurface surface_of(const ExplainedFrame& frame, const PixelFragment& fragment, const GBufferState& planes,
                         WindowPixel pixel);
 
-/// Whether fragments of an instance are tested for alpha.
+/// Whether fragments of an instance undergo the alpha test: the material's cutoff is not 0.
 bool has_alpha_test(const ExplainedFrame& frame, uint32_t instance);
 
 /// The alpha that is compared with the material's cutoff; nothing where the material has none.
 std::optional<float> tested_alpha(const ExplainedFrame& frame, const PixelFragment& fragment);
 
-/// What reading a channel gives after a draw has stored `values` in a plane or target of a format.
+/// What a shader reads of `target`, a plane or the target, after a draw without blending has stored `values` there.
 std::array<float, 4> read_back(const std::array<float, 4>& values, const BlendTarget& target);
 
 }  // namespace trueshade

@@ -46,7 +46,8 @@ std::array<float, 4> received(const LightTotal& total, const std::array<float, 3
   return out;
 }
 
-/// A light with a place ends where its extent, or its falloff, does.
+/// What light `index` of the table adds to the surface: its distance, its term and its fate. Out of reach, where extent
+/// or falloff has ended, the term is 0 and the program is not asked.
 LightAtPixel light_at(const ExplainedFrame& frame, const LightTotal& total, size_t index) {
   LightAtPixel at;
   if (!in_reach(total.table->row[index], total.surface, at)) return at.fate = LightFate::out_of_reach, at;
@@ -56,7 +57,7 @@ LightAtPixel light_at(const ExplainedFrame& frame, const LightTotal& total, size
   return at;
 }
 
-/// The sum of the lights, each as often as it counts.
+/// What the target receives of the sum of the lights that add something, each as often as it counts.
 std::array<float, 4> summed(const LightTotal& total, LightTimes times) {
   std::array<float, 3> sum = total.start;
   for (size_t i = 0; i < total.lights.size(); ++i)

@@ -5,14 +5,15 @@
 
 namespace trueshade {
 
-/// An exception as one rank tells another of it.
+/// An exception in the form in which one rank sends it to another.
 struct FailureText {
-  int32_t kind;  ///< the ErrorKind of an Error; of memory its out_of_memory; else 0
+  int32_t kind;  ///< the ErrorKind of an Error; out_of_memory where memory or threads ran out; else 0
   std::string text;
 };
 FailureText failure_text(const std::exception_ptr& failure);
 
-/// An Error of that kind with `who: ` before its text, or std::runtime_error where the kind is none.
+/// The exception that rank 0 throws for a FailureText of `who`: an Error of this kind, or std::runtime_error where
+/// `kind` is no ErrorKind. Brackets at the end of `text` become the Error's remedy.
 std::exception_ptr failure_from(const std::string& who, int32_t kind, const std::string& text);
 
 }  // namespace trueshade

@@ -114,7 +114,7 @@ void Following::talk() {
   ranks_.send(0, packed({.what = RankSays::What::bye, .round = round_}));
 }
 
-/// Under the lock.
+/// Acts on a message of rank 0. Called under the lock.
 void Following::hear(const RankMessage& message) {
   std::optional<RankSays> says = unpacked(message.bytes);
   if (!says) {

@@ -13,7 +13,8 @@
 
 namespace trueshade {
 
-/// The caller's thread makes the tasks and does them, with others where it does several at once. One talks to rank 0.
+/// One call of share_tasks() on a rank other than 0. The calling thread makes the tasks and does them, with further
+/// threads where SharedTasks::at_once exceeds 1. One more thread talks to rank 0, as long as the object lives.
 class Following {
  public:
   Following(Ranks& ranks, const SharingRules& rules, uint32_t round);
@@ -21,8 +22,9 @@ class Following {
   Following(const Following&) = delete;
   Following& operator=(const Following&) = delete;
 
-  /// Does what rank 0 hands out, until it says that all is done. Returns whether another round follows. Error(io) where
-  /// rank 0 is lost.
+  /// Makes the tasks by `prepare`, and does those that rank 0 hands out until rank 0 says that all are done. Returns
+  /// whether another call of share_tasks() follows. What `prepare` or a task throws is sent to rank 0, not thrown here.
+  /// Throws Error(io) where rank 0 is lost, Error(bad_input) where its messages are of another version.
   bool work(const std::function<SharedTasks()>& prepare);
 
  private:
@@ -43,7 +45,7 @@ class Following {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<RankSays> to_do_;
-  std::vector<RankSays> untold_;  // until rank 0 is in the same round
+  std::vector<RankSays> untold_;  // messages that wait until rank 0 is known to be in this round
   std::function<void()> stop_;    // SharedTasks::stop
   bool rank_0_is_here_ = false, all_done_ = false, goes_on_ = false, worked_ = false;
   std::exception_ptr lost_;

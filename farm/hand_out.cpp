@@ -50,7 +50,8 @@ std::optional<int> HandOut::fresh() {
   return task;
 }
 
-/// The lowest task that one other rank has for long already.
+/// The lowest task that exactly one rank, and not this one, has held for slow_after, and for twice the mean time that a
+/// task takes.
 std::optional<int> HandOut::slow_one(int rank, Clock::time_point now) const {
   if (rules_.slow_after >= kNever) return {};
   const auto mean =

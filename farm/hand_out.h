@@ -9,34 +9,37 @@
 
 namespace trueshade {
 
-/// Which rank does which task: the bookkeeping of share_tasks(), without messages and threads. A task is handed out
-/// when the results of all tasks that it is after are taken.
+/// Decides which rank does which task: the bookkeeping of share_tasks(), without messages and threads. A task that is
+/// after others is handed out once all their results are taken.
 class HandOut {
  public:
   using Clock = std::chrono::steady_clock;
-  static constexpr std::chrono::hours kNever{1 << 16};  ///< of slow_after: no task is handed out twice
+  static constexpr std::chrono::hours kNever{1 << 16};  ///< as slow_after: no task is handed out twice
   struct Rules {
     int tasks, ranks;
     int window;  ///< as SharingRules has it
     std::chrono::milliseconds slow_after;
     bool in_any_order;
   };
-  /// `after`: of each task those that it is after; empty: nothing is after anything.
+  ///   after: for each task, the tasks whose results must be taken before it is handed out; empty: none wait
   HandOut(const Rules& rules, const std::vector<std::vector<int>>& after);
 
-  /// How many tasks a rank may have at a time; at first 0. Of those `at_work` are at work, and the others wait for it.
+  /// Lets a rank hold `at_work` tasks at a time, and `ahead` more that wait at the rank as long as more tasks are free
+  /// than there are ranks. Called once for a rank; until then the rank gets none.
   void let_have(int rank, int at_work, int ahead);
 
-  /// The task that a rank is to do besides those that it has; nothing where it has enough, or there is none to be had
-  /// now. The caller sends it.
+  /// Hands one more task to a rank; the caller sends it there. Nothing where the rank holds enough, or no task can be
+  /// handed out now. A rank that holds none may get a task that another rank has been at work on for long.
   std::optional<int> next_for(int rank, Clock::time_point now);
-  /// A result of a task came from a rank. Returns whether it is the first.
+  /// Notes that a rank has sent its result of a task. Returns whether it is the first result of this task.
   bool came(int task, int rank, Clock::time_point now);
-  /// The result is with who wanted it, which makes room for another, and frees tasks that are after it.
+  /// Notes that the task's result was passed to SharedTasks::take. This makes room in the window for another task, and
+  /// frees tasks that waited for this one alone.
   void taken(int task);
-  /// As taken(), but what is after the task is left out: those tasks, and a task that each of them is after.
+  /// As taken(), but the tasks that are after this one, directly or through others, are left out of the run. Returns
+  /// each of them, paired with the task that it is after and because of which it is left out.
   std::vector<std::pair<int, int>> taken_and_closed(int task);
-  /// Gives the tasks of a rank back.
+  /// Frees the tasks that this rank alone holds, for other ranks, and lets the rank hold none from now on.
   void lose(int rank);
 
   bool was_handed_out_twice(int task) const { return tasks_[size_t(task)].times > 1; }
@@ -52,8 +55,8 @@ class HandOut {
   struct Task {
     std::vector<Holder> holders;
     std::vector<int> next;  // tasks that are after this one
-    int waits_for = 0;      // tasks
-    int times = 0;          // that it was handed out
+    int waits_for = 0;      // how many tasks this one is after that are not taken yet
+    int times = 0;          // how often it was handed out
     bool done = false;
     bool settled = false;  // taken, or left out
   };
@@ -69,11 +72,11 @@ class HandOut {
   Rules rules_;
   std::vector<Task> tasks_;
   std::vector<Rank> ranks_;
-  std::priority_queue<int, std::vector<int>, std::greater<>> free_;  // tasks that nobody has and that wait for none
+  std::priority_queue<int, std::vector<int>, std::greater<>> free_;  // that no rank holds and that wait for no other
   std::set<int> at_work_;                                            // handed out and not done
   int window_ = 0;
   int first_untaken_ = 0, begun_ = 0, taken_ = 0, settled_ = 0, twice_ = 0, measured_ = 0;
-  std::chrono::duration<double> spent_{0};  // on all results that came first
+  std::chrono::duration<double> spent_{0};  // from handing out to the result, over all first results
 };
 
 }  // namespace trueshade

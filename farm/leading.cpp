@@ -211,7 +211,8 @@ void Leading::hear(int rank, std::optional<RankSays> says) {
   }
 }
 
-/// Compares who a rank is with who rank 0 is.
+/// Compares the identity in a rank's hello with that of rank 0. A rank that differs is left out; any other gets tasks
+/// from now on.
 void Leading::meet(int rank) {
   Other& other = others_[size_t(rank)];
   const std::vector<std::string> words = std::move(other.hello->words);
@@ -266,7 +267,7 @@ void Leading::look_for_losses() {
   }
 }
 
-/// Of a rank that is not there any more.
+/// Leaves a lost rank out, and neither sends to it nor waits for it any more.
 void Leading::lose(int rank, const std::string& how) {
   Other& other = others_[size_t(rank)];
   if (!ending_ && other.phase != Phase::left_out)
@@ -276,7 +277,8 @@ void Leading::lose(int rank, const std::string& how) {
   ranks_.forget(rank);
 }
 
-/// Its tasks are for others, if the run goes on at all.
+/// Gives a rank no more tasks, in later rounds too. With continue_without_lost the tasks that it holds go to others;
+/// without, the run fails by an Error of this kind.
 void Leading::leave_out(int rank, ErrorKind kind, const std::string& why, const std::string& remedy) {
   others_[size_t(rank)].phase = Phase::left_out;
   ranks_.exclude(rank);

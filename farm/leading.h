@@ -17,8 +17,8 @@
 
 namespace trueshade {
 
-/// The caller's thread makes the tasks and takes results. One answers the other ranks, if there are any, from
-/// construction to end(). As many as SharedTasks::at_once do tasks of rank 0's own.
+/// One call of share_tasks() on rank 0. The calling thread makes the tasks and takes results. A second thread answers
+/// the other ranks, if there are any, from construction to end(). SharedTasks::at_once further threads do tasks here.
 class Leading {
  public:
   Leading(Ranks& ranks, const SharingRules& rules, uint32_t round);
@@ -26,16 +26,18 @@ class Leading {
   Leading(const Leading&) = delete;
   Leading& operator=(const Leading&) = delete;
 
-  /// Hands the tasks out from now on. They stay alive until end().
+  /// Hands the tasks out from now on. The caller keeps `tasks` alive as long as this object.
   void begin(const SharedTasks& tasks);
 
   struct Result {
     int task;
     std::vector<uint8_t> bytes;
   };
-  /// The next result for SharedTasks::take; nothing after the last. Throws what has ended the run.
+  /// Waits for the result that is to be passed to SharedTasks::take next; nothing after the last. Where the run has
+  /// failed and the next result is not here, throws the failure.
   std::optional<Result> next_result();
-  /// Tells what is after the task that it is taken, or that it is left out (SharedTasks::opens).
+  /// To be called after SharedTasks::take. Frees the tasks that are after this one; where SharedTasks::opens says no,
+  /// leaves them out and calls SharedTasks::leave_out for each.
   void taken(int task);
 
   /// After the last result: tells all ranks that nothing is left to do, and waits until they know, or are lost.
@@ -45,9 +47,9 @@ class Leading {
   enum class Phase : uint8_t { starting, ready, left_out, lost };
   struct Other {
     Phase phase = Phase::starting;
-    bool left = false;  // has said bye
+    bool left = false;  // it has said bye, or is lost
     HandOut::Clock::time_point heard{};
-    std::optional<RankSays> hello{};  // until the tasks are known
+    std::optional<RankSays> hello{};  // waits here until the tasks are known
   };
   using Lock = std::unique_lock<std::mutex>;
 
@@ -58,7 +60,7 @@ class Leading {
   void end_within(std::chrono::milliseconds patience, bool goes_on);
 
   // These are called under the lock.
-  void hear(int rank, std::optional<RankSays> says);  // nothing: what it said is of another version
+  void hear(int rank, std::optional<RankSays> says);  // empty: the message is of another version
   void meet(int rank);
   void hear_result(int rank, int task, std::vector<uint8_t> bytes);
   void look_for_losses();
@@ -83,10 +85,10 @@ class Leading {
   std::vector<Other> others_;  // [0] is not used
   std::optional<HandOut> hand_out_;
   std::map<int, std::vector<uint8_t>> waiting_;  // results that are not taken yet
-  std::map<int, std::string> hashes_;            // of same parts, of tasks that were handed out twice
+  std::map<int, std::string> hashes_;            // of SharedTasks::same_part, for tasks handed out twice
   std::exception_ptr failure_;
   bool ending_ = false;
-  HandOut::Clock::time_point given_up_{};  // when the others are waited for no longer, once it is ending
+  HandOut::Clock::time_point given_up_{};  // once ending_: when waiting for the other ranks stops
   HandOut::Clock::time_point last_beat_{};
   SharingReport report_;
   Wanted own_wanted_;

@@ -13,7 +13,7 @@ namespace trueshade {
 
 struct RankSays {
   enum class What : uint8_t {
-    beat,     ///< that it is there
+    beat,     ///< the sender is there
     hello,    ///< to rank 0: it is ready; words: names and values of the identity, in turn; number: tasks at once
     work,     ///< from rank 0: number: a task; bytes: its brief
     result,   ///< to rank 0: number: the task; bytes
@@ -36,7 +36,7 @@ inline std::chrono::milliseconds beat_interval(std::chrono::milliseconds lost_af
 }
 
 std::vector<uint8_t> packed(const RankSays& says);
-/// Nothing where the bytes are none of packed(), as another version may send them.
+/// Reads a message that packed() made. Nothing where this version's packed() makes no such bytes.
 std::optional<RankSays> unpacked(std::span<const uint8_t> message);
 
 }  // namespace trueshade

@@ -8,7 +8,7 @@ struct MpiStart {
   bool by_mpi = false;  ///< by mpirun or the like, with more than one process
   int rank = 0;
 };
-/// Of OMPI_COMM_WORLD_RANK, PMIX_RANK or PMI_RANK, and the sizes that go with them. No MPI is needed for that.
+/// Reads OMPI_COMM_WORLD_RANK, PMI_RANK or PMIX_RANK, and the variable of the number of processes. Needs no MPI.
 MpiStart mpi_start();
 
 /// The ranks of this process, joined at the first call; nullptr where it was not started by MPI or is alone. Loads the
@@ -16,7 +16,7 @@ MpiStart mpi_start();
 /// others have not come within two minutes.
 Ranks* process_ranks();
 
-/// The last call before the process ends with that exit code: leaves the ranks, if they were joined. Returns it.
+/// The last call before the process ends: leaves the ranks, if they were joined. Returns `exit_code`.
 int leave_process_ranks(int exit_code);
 
 }  // namespace trueshade

@@ -12,8 +12,8 @@
 
 namespace trueshade {
 
-/// Whether what a task is at work on is still wanted: its result may have come from another rank meanwhile, or the run
-/// is over. Long tasks look now and then.
+/// Whether the result of a task that is being done is still wanted: it is not once the run is over, by a failure or
+/// because another rank did the task sooner. Long tasks ask now and then.
 class Wanted {
  public:
   bool still() const { return !withdrawn_; }
@@ -34,25 +34,29 @@ struct SharedTasks {
   /// `{"pipeline", json}`, `{"frames", "0-99"}`. Bytes are compared; the values are shown in full up to 64 characters.
   std::vector<std::pair<std::string, std::string>> identity;
 
-  /// Tasks that each task is after: it is handed out when their results are taken. Empty: nothing is after anything.
-  /// Without circles, and with `in_any_order` alone.
+  /// For each task, the tasks that it is after: it is handed out once their results are taken. Empty: no task is after
+  /// another. Has no circles, and needs `in_any_order`.
   std::vector<std::vector<int>> after;
 
-  /// On rank 0, under a lock: what it alone knows of a task that it hands out. Not set: nothing.
+  /// Called on rank 0, under a lock, for a task that is handed out: what rank 0 alone knows of the task, which `run`
+  /// receives. Not set: no bytes.
   std::function<std::vector<uint8_t>(int task)> brief;
 
-  /// Does a task; on any rank, by `at_once` threads of a process. An exception of it ends the run.
+  /// Does a task and returns its result; called on any rank, by `at_once` threads of a process. An exception of it ends
+  /// the run.
   std::function<std::vector<uint8_t>(int task, std::span<const uint8_t> brief, const Wanted& wanted)> run;
   int at_once = 1;  ///< tasks that this process does at a time, each on a thread of its own
 
-  /// Called once, on any thread, when no result of this process is wanted any more; for tasks that cannot look.
+  /// Called once, on any thread, when no result of this process is wanted any more; for tasks that cannot ask `wanted`.
   std::function<void()> stop;
-  /// On rank 0, some times a second while there are results to come, on any thread: what it throws ends the run.
+  /// Called on rank 0 several times a second while results are to come, under a lock, on any thread. An exception of it
+  /// ends the run.
   std::function<void()> check;
 
   bool is_last = true;  ///< no other call of share_tasks() follows; that of rank 0 counts
 
-  /// The part of a result that is the same whoever did the task, in a result that holds times as well; not set: all.
+  /// The part of a result that must be equal on every rank that does the task, where the rest is, say, a time. Not set:
+  /// all of it.
   std::function<std::span<const uint8_t>(std::span<const uint8_t> result)> same_part;
 
   /// On rank 0, on the thread that called share_tasks(), once for each task, in the order of their numbers. An
@@ -64,15 +68,17 @@ struct SharedTasks {
   /// After take(): whether tasks that are after this one are to be done. If not, they, and those that are after them,
   /// are left out: neither run nor taken. Not set: they are.
   std::function<bool(int task)> opens;
-  /// Told of each task that is left out, and of the one before it because of which it is.
+  /// Called on rank 0, on the thread that called share_tasks(), for each task that is left out. `because` is the task
+  /// that it is after and because of which it is left out.
   std::function<void(int task, int because)> leave_out;
 };
 
 struct SharingRules {
-  std::chrono::milliseconds lost_after{60000};  ///< a rank that was not heard for so long is lost
+  std::chrono::milliseconds lost_after{60000};  ///< a rank that is silent for so long is lost
   bool continue_without_lost = false;           ///< gives tasks of lost ranks to others; else a loss is an Error
   int ahead = 1;                                ///< tasks that wait at a rank besides those that it is at work on
-  /// Results that wait for one before them, and tasks at work; 0: 4 for each task that all ranks can do at once.
+  /// A task is handed out only while its number is less than `window` above the first one that is not taken; with
+  /// in_any_order, while fewer tasks are handed out and not taken. 0: 4 for each task that all ranks can do at once.
   int window = 0;
   int ranks = 0;  ///< that tasks are handed out to, from rank 0 on; 0: all
   /// No task is handed out a second time earlier; HandOut::kNever: none is at all.
@@ -81,7 +87,7 @@ struct SharingRules {
 
 /// What rank 0 tells of a run that is complete; other ranks know `goes_on` alone.
 struct SharingReport {
-  std::vector<int> tasks_of_rank;  ///< results of each rank that counted
+  std::vector<int> tasks_of_rank;  ///< for each rank, how many of its results came first
   std::vector<std::string> lost;   ///< sentences on ranks that were left out: `rank 2 on node7: ...`
   int handed_out_twice = 0;
   bool goes_on = false;  ///< on every rank: all is done, and another call follows; false where the run has failed

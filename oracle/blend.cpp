@@ -54,7 +54,7 @@ int code_of(float x, int largest) {
   return rest > 0.5 || (rest == 0.5 && below % 2 != 0) ? below + 1 : below;
 }
 
-/// IEC 61966-2-1 both ways, by powers in long double.
+/// The 8-bit sRGB code of a linear value, and the value of a code (IEC 61966-2-1), by powers in long double.
 int srgb_code_of(float linear) {
   if (!(linear > 0.0f)) return 0;
   if (linear >= 1.0f) return 255;
@@ -66,7 +66,8 @@ float linear_of_srgb(int code) {
   return float(x <= 0.04045L ? x / 12.92L : std::pow((x + 0.055L) / 1.055L, 2.4L));
 }
 
-/// llvmpipe's both ways (Mesa 22.3, lp_bld_format_srgb.c), by the instruction that it has the CPU execute.
+/// 1/sqrt(x) as this CPU estimates it, by the instruction that llvmpipe has it execute for sRGB codes (Mesa 22.3,
+/// lp_bld_format_srgb.c).
 float estimated_rsqrt(float x) {
 #if defined(__x86_64__)
   return _mm_cvtss_f32(_mm_rsqrt_ss(_mm_set_ss(x)));

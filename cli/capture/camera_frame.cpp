@@ -71,7 +71,8 @@ std::array<double, 2> CameraFrame::ndc(int x, int y) const {
   return {nx, geometry_.clip_origin == ClipOrigin::upper_left ? -ny : ny};
 }
 
-/// Three planes: of the pixel's column and row, and that at the depth.
+/// Intersects three planes: of the pixel's column, of the pixel's row, and the one at this depth across the camera's
+/// axis.
 Real3 CameraFrame::at_linear(int x, int y, double depth) const {
   const std::array<double, 2> at = ndc(x, y);
   const double w = w_per_unit_ > 0 ? w_per_unit_ * depth : matrix_[15];

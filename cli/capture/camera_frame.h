@@ -14,9 +14,10 @@ class CameraFrame {
  public:
   CameraFrame(const Scene& scene, const Pipeline& pipeline);
 
-  /// Of a view space into the world. Error(bad_input) where the matrix is sheared, so that it has no axes.
+  /// A direction or a position of `space`, in the world. Call check_axes() before, for a view space.
   Real3 world_direction(CapturedSpace space, const Real3& n) const;
   Real3 world_position(CapturedSpace space, const Real3& p) const;
+  /// Error(bad_input) where the matrix is sheared or has no inverse, so that view space has no axes.
   void check_axes() const;
 
   const Real3& eye() const { return eye_; }
@@ -24,7 +25,7 @@ class CameraFrame {
   /// The point of a pixel's ray (pixel centre, y from the top) at a distance along the camera's axis, or from the eye.
   Real3 at_linear(int x, int y, double depth) const;
   Real3 at_distance(int x, int y, double distance) const;
-  /// The point whose window depth that is.
+  /// The point of a pixel's ray at a window depth.
   Real3 at_window(int x, int y, double depth) const;
   /// The window depth of a point.
   double window_depth(const Real3& point) const;
@@ -41,7 +42,7 @@ class CameraFrame {
   Viewport viewport_;
   Matrix4 matrix_, inverse_;
   Real3 right_, up_, forward_, eye_;
-  double w_per_unit_;  ///< of a step forward; 0 of orthographic cameras
+  double w_per_unit_;  ///< how much w grows by a step forward of length 1; 0 of orthographic cameras
 };
 
 }  // namespace trueshade

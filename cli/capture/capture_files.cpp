@@ -27,13 +27,13 @@ std::string channel_list(const ChannelFile& file) {
   return list;
 }
 
-/// A file, or a part of it, as a map may call it, and what is left of the text behind its name.
+/// What the source of a map's entry names: a file, or a part of one, and the text behind the name.
 struct NamedSource {
   size_t file = 0;
   std::string part, channels;
 };
 
-/// Whether `text` begins with `name`, which ends there or at a full stop; `rest` is what follows that.
+/// Whether `text` is `name`, or begins with `name` and a full stop. Then sets `rest` to the text behind the full stop.
 bool begins_with(std::string_view text, std::string_view name, std::string& rest) {
   if (name.empty() || !text.starts_with(name)) return false;
   if (text.size() > name.size() && text[name.size()] != '.') return false;
@@ -52,7 +52,9 @@ class CaptureReader {
     return out_.files.size() - 1;
   }
 
-  /// The file that the text begins with: the longest name among the files read, of their parts; else a path.
+  /// The file that the plane's source begins with: by the longest name of a file read or of one of its parts, or by a
+  /// path if that is longer, which is read. A source without a name is of the only file. Error(bad_input) where no
+  /// file, or more than one, is named.
   NamedSource source_of(const MappedPlane& plane) {
     const std::string& text = plane.source;
     std::optional<NamedSource> best;
@@ -83,7 +85,7 @@ class CaptureReader {
                    "name it by --gbuffer, or with its ending: FILE.exr.CHANNELS");
   }
 
-  /// Where a path that the text begins with ends; 0 if it has no ending of a file.
+  /// The length of the path that the text begins with: up to its last ending of a file; 0 if it has none.
   static size_t end_of_path(const std::string& text) {
     size_t longest = 0;
     for (const std::string_view ending : kFileEndings)
@@ -105,7 +107,7 @@ class CaptureReader {
     add(plane, source.file, channels_named(plane, source));
   }
 
-  /// The channels that the text behind a file's name names, by their places in the file.
+  /// The indices, in the file, of the channels that source.channels names.
   std::vector<size_t> channels_named(const MappedPlane& plane, const NamedSource& source) {
     const ChannelFile& file = out_.files[source.file];
     const auto named = [&](const std::string& name) {
@@ -147,7 +149,7 @@ class CaptureReader {
     return list;
   }
 
-  /// `FIRST-LAST`, by their places from 0.
+  /// The indices that `FIRST-LAST` names, numbers of channels from 0; `dash` is the place of the dash in `text`.
   static std::vector<size_t> channels_numbered(const ChannelFile& file, const std::string& text, size_t dash) {
     const auto number = [](const std::string& digits) -> std::optional<size_t> {
       if (digits.empty() || digits.size() > 3 || digits.find_first_not_of("0123456789") != std::string::npos)
@@ -161,7 +163,7 @@ class CaptureReader {
     return list;
   }
 
-  /// How many channels a plane takes at most, packed as it is.
+  /// How many channels of a file a plane takes at most, as its packing and its depth say.
   static size_t most_channels(const MappedPlane& plane) {
     if (plane.packing != Packing::none) return 2;
     if (plane.plane == "position" && plane.depth != CapturedDepth::none) return 1;
@@ -188,7 +190,7 @@ class CaptureReader {
     found_.push_back({plane, file, channels});
   }
 
-  /// The plane by its usual channels, if a file has any of them.
+  /// Adds the plane by its usual channels. Returns false if no file has any of them.
   bool add_usual(const MappedPlane& plane) {
     const std::vector<std::string> names = exr_channels_of(plane.plane, int(channels_of_plane(plane.plane)->most));
     std::optional<size_t> holder;

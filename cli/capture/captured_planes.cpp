@@ -20,7 +20,7 @@ namespace {
 // computes, a point that it transforms, a direction that it turns. Two units of 1 for a depth of the window.
 constexpr double kComputed = 0x1p-20, kWindowComputed = 0x1p-22;
 
-/// Not below the number.
+/// A float that is not below the number.
 float rounded_up(double value) { return std::nextafter(float(value), HUGE_VALF); }
 
 double length_of(const Real3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
@@ -31,7 +31,7 @@ double float_step(double value, int mantissa) {
   return std::ldexp(1.0, exponent - mantissa);
 }
 
-/// The distance of the next number that a channel's storage has.
+/// The distance from a value to the next number that the channel can store; 0 of 32-bit floats.
 double step_of(const Channel& channel, double value) {
   if (channel.is_code() || channel.kind == ChannelKind::snorm) return 1.0 / channel.largest_code();
   if (channel.is_rounded) return 0x1p-23 * std::fabs(value);
@@ -39,7 +39,7 @@ double step_of(const Channel& channel, double value) {
   return float_step(value, channel.bits == 16 ? 10 : channel.bits - 5);
 }
 
-/// The same of a plane's format, whose numbers a file may hold as floats. Codes stand for -1 to 1.
+/// step_of() by the format of a plane that a file may hold as floats. Its codes stand for -1 to 1.
 double step_in(Format format, double value) {
   const FormatInfo layout = info(format);
   if (layout.number_class == NumberClass::unorm) return 2.0 / layout.largest_code(0);
@@ -91,7 +91,8 @@ class PlaneUnpacker {
   }
   void note(const std::string& line) { out_.notes.push_back(line); }
 
-  /// A value of the engine's own, the same wherever there is no surface: it says nothing, and 0 stands for it.
+  /// Sets a plane to 0 wherever there is no surface, if it holds one value there: the engine's clear value. Adds a
+  /// note.
   void forget_clear_value(NamedImage& plane) {
     const auto bytes = size_t(info(plane.image.format).bytes_per_texel());
     std::vector<uint8_t> clear;
@@ -136,7 +137,8 @@ class PlaneUnpacker {
     }
   }
 
-  /// Depths and texture coordinates in halves, where the pipeline stores more bits, were rounded after they were drawn.
+  /// Refuses depths and texture coordinates in halves where the pipeline stores more bits: they were rounded after they
+  /// were drawn.
   void check_halves(const PlaneChannelList& plane) const {
     const std::string& name = plane.mapped.plane;
     const Format format = name == "depth" ? pipeline_.geometry.depth_format : surface_planes(pipeline_).uv.format;
@@ -148,7 +150,8 @@ class PlaneUnpacker {
 
   static bool is_linear(const PlaneChannelList& plane) { return is_length(plane.mapped.depth); }
 
-  /// Codes of a world normal n/2 + 1/2 in the very format that the pipeline has are judged as such.
+  /// Whether a normal plane is stored as the pipeline stores it, codes of n/2 + 1/2 in the world: then it is not
+  /// unpacked.
   bool is_stored_normal(const PlaneChannelList& plane) const {
     const FormatInfo layout = info(pipeline_.gbuffer.normal.format);
     return plane.mapped.packing == Packing::none && plane.mapped.space == CapturedSpace::world && !plane.mapped.unit &&
@@ -171,14 +174,16 @@ class PlaneUnpacker {
   }
   size_t at(int x, int y) const { return size_t(y) * size_t(files_.width()) + size_t(x); }
 
-  /// Whether something is packed at a pixel: without planes that tell, where any number is not 0.
+  /// Whether a plane holds something at a pixel: where there is a surface or, where no plane tells, where any of its
+  /// channels is not 0.
   bool is_packed(const PlaneChannelList& plane, int x, int y) const {
     if (!covered_.empty()) return covered_[at(x, y)] != 0;
     return std::any_of(plane.channels.begin(), plane.channels.end(),
                        [&](const Channel* c) { return c->words[file_pixel(plane, x, y)] != 0; });
   }
 
-  /// Calls unpack(x, y) for each pixel where something is packed, and stores what it returns.
+  /// Adds a plane of three floats, and its bounds, of what unpack(x, y) returns for each pixel where is_packed(); 0
+  /// elsewhere.
   template <typename Unpack>
   void add_vectors(const PlaneChannelList& plane, bool unit_length, Unpack unpack) {
     Image image(files_.width(), files_.height(), Format::rgb32f);
@@ -291,7 +296,7 @@ class PlaneUnpacker {
     });
   }
 
-  /// A depth out of a channel, checked to be one.
+  /// The depth at a pixel: 1 minus the number where it is reversed. Error(bad_input) for NaN.
   double depth_at(const PlaneChannelList& plane, int x, int y) const {
     const double depth = number_at(plane, 0, x, y).value;
     return plane.mapped.depth == CapturedDepth::reversed ? 1 - depth : depth;
@@ -303,13 +308,14 @@ class PlaneUnpacker {
     return frame_.at_window(x, y, depth);
   }
 
-  /// What of a depth the shader may have computed otherwise.
+  /// How far the engine's shader may have computed a depth from this one.
   double depth_error(const PlaneChannelList& plane, double depth) const {
     return is_linear(plane) ? kComputed * std::fabs(depth) : kWindowComputed;
   }
 
-  /// The point's own error is that of its depth, seen by where the points of the depths at its ends are, and of a
-  /// transformation. The G-buffer's stage leaves it out: the depth is that of the snapped triangle.
+  /// Adds positions rebuilt from a depth. A position's error is the distance to the points at the ends of the depth's
+  /// error, plus that of a transformation. The G-buffer's stage leaves the plane out (its packing_error is infinite),
+  /// since the depth is that of the snapped triangle.
   void add_position_of_depth(const PlaneChannelList& plane) {
     frame_.check_axes();
     const CapturedDepth kind = plane.mapped.depth;
@@ -338,7 +344,7 @@ class PlaneUnpacker {
          "state depth_format d32f, or capture the buffer itself");
   }
 
-  /// Codes k as largest - k, which is exact; floats with the rounding of 1 - z.
+  /// Adds the plane depth as 1 minus a reversed depth: exact for codes; for floats with the rounding of 1 - z.
   void add_reversed_depth(const PlaneChannelList& plane) {
     check_halves(plane);
     const Channel& channel = *plane.channels[0];
@@ -358,7 +364,8 @@ class PlaneUnpacker {
         "depth_func greater and clear_depth 0, and take the depth as it is");
   }
 
-  /// No distance, or one beyond the clear depth, is where nothing was drawn.
+  /// Adds the plane depth of distances. Where a distance is not above 0, not finite, or beyond the clear depth, nothing
+  /// was drawn, and the depth is the clear depth.
   void add_linear_depth(const PlaneChannelList& plane) {
     check_float_depth(plane);
     frame_.check_axes();

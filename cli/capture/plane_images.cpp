@@ -21,7 +21,7 @@ bool all_bits(const PlaneChannelList& plane, int bits) {
 
 bool is_one_number(const std::string& plane) { return plane.starts_with("id.") || plane == "light.count"; }
 
-/// The format that holds the channels as they are.
+/// The format of the image that holds a plane's channels: see stored_plane_image().
 Format format_of_channels(const PlaneChannelList& plane) {
   const Channel& first = *plane.channels[0];
   const size_t count = plane.channels.size();
@@ -44,7 +44,7 @@ Error bad_plane(const PlaneChannelList& plane, int x, int y, const std::string& 
           plane.mapped.plane + " at " + std::to_string(x) + ',' + std::to_string(y) + ' ' + reason, remedy};
 }
 
-/// The same of a row of floats of 32 bits that the file holds as such.
+/// store_row() for a plane of 32-bit floats whose channels the file holds as floats.
 int store_floats(const PlaneChannelList& plane, int y, Image& image) {
   const size_t count = plane.channels.size(), pixel = file_pixel(plane, 0, y), width = size_t(image.width);
   uint8_t* const row = image.texel(0, y);
@@ -64,7 +64,7 @@ bool holds_floats(const PlaneChannelList& plane) {
                      [](const Channel* c) { return c->kind == ChannelKind::floating; });
 }
 
-/// Row y of the image. Returns the first x whose value is not a number, -1 where there is none.
+/// Writes row y of the plane into the image. Returns the first x whose value is NaN, -1 where there is none.
 int store_row(const PlaneChannelList& plane, int y, Image& image) {
   const FormatInfo layout = info(image.format);
   if (layout.number_class == NumberClass::floating && layout.bytes_per_channel == 4 && holds_floats(plane))

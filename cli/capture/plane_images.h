@@ -4,7 +4,7 @@
 
 namespace trueshade {
 
-/// The row of a file that holds row y of the picture, both from the top.
+/// The index, in the channels of the plane's file, of pixel (x, y) of the picture; y from the top.
 inline size_t file_pixel(const PlaneChannelList& plane, int x, int y) {
   const int row = plane.mapped.bottom_up ? plane.file->height - 1 - y : y;
   return size_t(row) * size_t(plane.file->width) + size_t(x);

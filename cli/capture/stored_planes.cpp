@@ -38,8 +38,9 @@ Format stored_format(const Pipeline& pipeline, const std::string& plane) {
   return plane == "depth" ? Format::d32f : Format::r32ui;
 }
 
-/// The code k whose value a file stored: k / largest, rounded, as drivers read it back (docs/gl_rules.md section 3
-/// measured k * fl32(1 / 255), 1.25 ulp off), or that in a half, which is half an ulp of one off, or in a 16-bit code.
+/// The code k whose value a file stored; nothing where `value` is of no code. The value is k / largest as drivers read
+/// it back (docs/gl_rules.md section 3 measured k * fl32(1 / 255), 1.25 ulp off), as a half, which is off by half a
+/// half's ulp, or as a code of `from`, the file's format.
 std::optional<uint32_t> code_of(double value, uint32_t largest, const FormatInfo& from) {
   const double code = std::nearbyint(value * largest);
   if (!(code >= 0.0 && code <= largest)) return std::nullopt;
@@ -50,15 +51,16 @@ std::optional<uint32_t> code_of(double value, uint32_t largest, const FormatInfo
   return std::fabs(value - code / largest) <= off ? std::optional(uint32_t(code)) : std::nullopt;
 }
 
-/// The sRGB code whose linear value that is: within what llvmpipe's decoding is off, 2.5 % (docs/gl_rules.md section
-/// 3).
+/// The sRGB code whose linear value is within 2.5 % of `value`, as far as llvmpipe's decoding is off (docs/gl_rules.md
+/// section 3); nothing where there is none.
 std::optional<uint32_t> srgb_code_of(double value) {
   const uint32_t code = srgb8_from_linear(float(value));
   const double exact = double(kLinearOfSrgb8[code]);
   return std::fabs(value - exact) <= 0.025 * exact ? std::optional(code) : std::nullopt;
 }
 
-/// What a channel of that format holds for a value; nothing where there is no such value.
+/// The bits by which a channel of format `layout` holds a value exactly, or by its code; nothing where it cannot.
+///   from: the format that the value was read from
 std::optional<uint32_t> bits_of(double value, const FormatInfo& layout, int channel, const FormatInfo& from) {
   if (layout.srgb_channel(channel)) return srgb_code_of(value);
   if (layout.number_class == NumberClass::unorm) return code_of(value, layout.largest_code(channel), from);
@@ -85,12 +87,12 @@ Format format_for(Format wanted, int channels) {
   return wanted;
 }
 
-/// No normal is (-1, -1, -1), which codes of 0 stand for: a plane of them is cleared there.
+/// Whether a plane of normals in codes was only cleared at a pixel: all codes are 0, and no normal is (-1, -1, -1).
 bool untouched(const Image& normal, int x, int y) {
   return normal.value(x, y, 0) == 0.0 && normal.value(x, y, 1) == 0.0 && normal.value(x, y, 2) == 0.0;
 }
 
-/// A value at a place that the format of its plane does not hold.
+/// The error for a value that the format of its plane cannot hold. `place`: the plane and the pixel.
 Error unheld_value(const std::string& where, const std::string& place, double value, const FormatInfo& to) {
   char number[32];
   std::snprintf(number, sizeof number, "%.9g", value);

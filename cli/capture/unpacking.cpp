@@ -17,7 +17,7 @@ PackedNumber signed_number(const PackedNumber& c) {
   return {2 * c.value - 1, 2 * c.step, 2 * c.fetch + kRounding};
 }
 
-/// A store may be a step off, and what it was computed from (a product and a sum) two roundings.
+/// packing_error: a store may be a step off, and what is stored, computed by a product and a sum, two roundings.
 UnpackedVector unpacked_components(const std::array<PackedNumber, 3>& n) {
   UnpackedVector v;
   for (size_t k = 0; k < 3; ++k) {
@@ -51,9 +51,10 @@ std::optional<UnpackedVector> unpacked_octahedral(const PackedNumber& x, const P
 
 namespace {
 
-/// How far n is off where each component of f is by `e`, beside what arithmetic adds. |f|^2 is off by
-/// 2 |f| sqrt(2) e + 2 e^2 and three roundings; s = 1 - |f|^2 / 4 by a quarter of it and one more; its root by
-/// min(ds / root, sqrt(ds)) and 4.5 u; |f| <= 2.
+/// The bound on the error of each component of n (see unpacked_spheremap) where each component of f is off by `e`, with
+/// the roundings of the unpacking. |f|^2, `f2`, is off by 2 |f| sqrt(2) e + 2 e^2 and three roundings;
+/// s = 1 - |f|^2 / 4 by a quarter of this error and one rounding; its root by min(ds / root, sqrt(ds)) and 4.5 u.
+/// |f| <= 2.
 double spheremap_error(double f2, double e) {
   const double length = std::sqrt(f2), root = std::sqrt(std::max(0.0, 1 - f2 / 4));
   const double df2 = 2 * length * kSqrt2 * e + 2 * e * e + 3 * kRounding * f2, ds = df2 / 4 + kRounding;

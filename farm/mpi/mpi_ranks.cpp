@@ -156,7 +156,7 @@ void MpiRanks::finish(Traffic& traffic) {
   joined_or_left_.notify_all();
 }
 
-/// Those of this machine that are stopped, or wait for a disk for ever.
+/// Kills the forgotten processes of this machine that have not ended, as they are stopped or wait for a disk for ever.
 void MpiRanks::end_forgotten() {
   for (int rank = 0; rank < count(); ++rank)
     if (const Member& member = members_[size_t(rank)]; member.forgotten && member.is_seen && !has_ended(rank))

@@ -17,7 +17,7 @@ namespace trueshade {
 /// sleeps between, at most 2 ms, as the other ranks may want the core.
 class MpiRanks : public Ranks {
  public:
-  /// Waits for all the others, which may have died before they came: has_joined() tells.
+  /// Waits for all other processes, for two minutes; has_joined() tells whether all came.
   MpiRanks();
   ~MpiRanks() override;
 
@@ -38,14 +38,14 @@ class MpiRanks : public Ranks {
   struct Member {
     std::string host;
     KnownProcess process;
-    bool is_seen = false;  // from here, so that its end would be seen too
+    bool is_seen = false;  // this process sees it in /proc, and so would see its end
     std::atomic<bool> forgotten{false};
   };
   struct Letter {
     int to;
     std::vector<uint8_t> bytes;
   };
-  class Traffic;  // the requests of MPI that are under way
+  class Traffic;  // the messages that MPI is sending or receiving
   using Lock = std::unique_lock<std::mutex>;
 
   void join();

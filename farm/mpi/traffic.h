@@ -15,7 +15,8 @@ class MpiRanks::Traffic {
   explicit Traffic(MPI_Comm communicator, int ranks) : communicator_(communicator), from_(size_t(ranks)) {}
 
   void send(Letter letter);
-  /// Goes on with all that is under way; what is complete is appended. Returns whether anything moved.
+  /// Goes on sending and receiving, without waiting, and appends each message that has arrived whole. Returns whether
+  /// anything moved.
   bool advance(std::deque<RankMessage>& complete, const std::deque<Member>& members);
   bool all_sent(const std::deque<Member>& members) const;
 
@@ -32,7 +33,7 @@ class MpiRanks::Traffic {
   };
   struct Source {
     std::deque<Piece> pieces;    // in the order that they were sent in
-    std::vector<uint8_t> begun;  // of a message whose last piece is not here
+    std::vector<uint8_t> begun;  // the pieces so far of a message that is not here whole
   };
 
   bool advance_sent(const std::deque<Member>& members);

@@ -57,13 +57,14 @@ Interval logical(Op op, const Interval& x, const Interval& y) {
   }
 }
 
-/// What a sum in double leaves out (Knuth's TwoSum): 1 - 2^-126 is 1, but WGSL may round it to the float below.
+/// The rounding error of x + y in double (Knuth's TwoSum): 1 - 2^-126 is 1 there, but WGSL may round it to the float
+/// below.
 double lost(double x, double y) {
   const double sum = x + y, part = sum - x;
   return (x - (sum - part)) + (y - part);
 }
 
-/// What may be either infinity may come of inf - inf or 0 inf too.
+/// Marks a result as maybe NaN where it may be either infinity: then it may come of inf - inf or 0 inf as well.
 Interval unless_anything(Interval x) {
   if (x.low == -HUGE_VAL && x.high == HUGE_VAL) x.maybe_nan = true;
   return x;
@@ -85,7 +86,7 @@ Interval hull(const Interval& x, const Interval& y) {
   return {x.value, std::min(x.low, y.low), std::max(x.high, y.high), x.maybe_nan || y.maybe_nan};
 }
 
-/// The largest float that is no larger, or the nearest one where sums and products are rounded to nearest.
+/// The largest float that is not above x; the nearest float, where the arithmetic rounds sums and products to nearest.
 double IntervalArithmetic::below(double x) const {
   const float nearest = float(x);
   if (double(nearest) <= x || a_.roundoff <= 0x1p-24) return nearest;
@@ -98,8 +99,8 @@ double IntervalArithmetic::above(double x) const {
   return std::nextafterf(nearest, HUGE_VALF);
 }
 
-/// What a result becomes that is rounded once: rounding keeps order, so it crosses neither 0 nor any other float. A
-/// driver may flush what is below 2^-126.
+/// A result rounded once to a float. Rounding keeps order, so the ends are rounded outward. A result below 2^-126 may
+/// be flushed to 0. Anything, where an end is NaN.
 Interval IntervalArithmetic::rounded(Interval x) const {
   if (std::isnan(x.low) || std::isnan(x.high)) return Interval::anything();
   x.low = x.low > 0 && x.low < kSmallestFloat ? 0 : below(x.low);
@@ -107,7 +108,7 @@ Interval IntervalArithmetic::rounded(Interval x) const {
   return a_.wgsl ? finite(x) : unless_anything(x);
 }
 
-/// WGSL, "Floating Point Rounding and Overflow": what is not finite is indeterminate.
+/// x, or anything where x may not be finite: WGSL leaves such a result open ("Floating Point Rounding and Overflow").
 Interval IntervalArithmetic::finite(const Interval& x) const {
   if (!x.maybe_nan && x.high <= kLargestFloat && x.low >= -kLargestFloat) return x;
   Interval out = Interval::anything();
@@ -123,14 +124,15 @@ Interval IntervalArithmetic::taken(Interval x, bool compares) const {
   return compares ? x : finite(x);
 }
 
-/// How far x may be off by a part of itself. In WGSL ulps of what is small are 2^-126, as the CTS has them, but none
-/// of 0.
+/// How far a number x is off by a relative error. In WGSL an ulp of any number but 0 is 2^-126 at least, as its CTS has
+/// it.
 double IntervalArithmetic::reach(double x, double relative) const {
   const double size = std::fabs(x);
   return relative * (a_.wgsl && size > 0 ? std::max(size, 0x1p-103) : size);
 }
 
-/// The same of an operation that errs by so much; its sign stays.
+/// A result x of an operation with this relative and this absolute error. The relative error alone does not change its
+/// sign. The result may be flushed to 0 below 2^-126, and overflow.
 Interval IntervalArithmetic::within(Interval x, double relative, double absolute) const {
   const double low = x.low - reach(x.low, relative) - absolute, high = x.high + reach(x.high, relative) + absolute;
   x.low = x.low >= 0 && absolute == 0 ? std::max(0.0, low) : low;

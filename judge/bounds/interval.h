@@ -32,10 +32,10 @@ struct Interval {
 
 Interval interval_of(const Bounded& x);
 
-/// The value and the farther end; an infinite error of what may be NaN.
+/// The value, and the distance to the farther end as its error; an infinite error where it may be NaN.
 Bounded bounded_of(const Interval& x);
 
-/// What holds both.
+/// The smallest interval that holds both; with the value of x.
 Interval hull(const Interval& x, const Interval& y);
 
 inline constexpr double kLargestFloat = double(std::numeric_limits<float>::max());
@@ -43,7 +43,8 @@ inline constexpr double kLargestFloat = double(std::numeric_limits<float>::max()
 /// Whether some of it is below 2^-126.
 inline bool may_be_subnormal(const Interval& x) { return x.low < kSmallestFloat && x.high > -kSmallestFloat; }
 
-/// Both ends of a function that grows, or falls, with its argument; `value` too.
+/// f(x) of a function that only grows, or only falls, from x.low to x.high: the ends and the value are f of those of x,
+/// without a rounding. May be NaN where x may be, or where f of an end is.
 template <class F>
 Interval monotone(const Interval& x, F f) {
   const double p = f(x.low), q = f(x.high);
@@ -56,10 +57,10 @@ class IntervalArithmetic {
  public:
   explicit IntervalArithmetic(const Arithmetic& arithmetic) : a_(arithmetic) {}
 
-  /// Operands that the operation does not have are not read. Not of `constant` and `input`.
+  /// The node's operation on operands x, y, z, of which as many are read as it has. Not for `constant` and `input`.
   Interval operator()(const programs::ProgramNode& node, const Interval& x, const Interval& y, const Interval& z) const;
 
-  /// Terms added in any order, two or more; `more`: what else the sum may be off before it is rounded.
+  /// The sum of two or more terms that a driver may add in any order. `more`: a further error before it is rounded.
   Interval sum(std::span<const Interval> terms, double more = 0) const;
   /// A product of products, whose factors a driver may multiply in another order: its roundings are other ones then.
   Interval reordered(const Interval& product) const { return within(product, a_.roundoff); }

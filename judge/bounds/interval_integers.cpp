@@ -11,7 +11,7 @@ using programs::Op;
 using programs::ProgramNode;
 using programs::Type;
 
-/// Nothing is known of the integer but its type.
+/// Any integer of a type.
 Interval any_integer(Type type) {
   if (type == Type::u32) return {0, 0, 0xFFFFFFFFp0, false};
   return {0, -0x1p31, 0x1p31 - 1, false};
@@ -35,7 +35,7 @@ float of_half(uint32_t half) {
   return float((half & 0x8000) != 0 ? -size : size);
 }
 
-/// Of operands that are known. Not of operations that are left to any_integer().
+/// An operation on the bits of known operands; for those operations that of_integers() does not leave open.
 uint32_t integer(Op op, uint32_t x, uint32_t y) {
   const auto i = int32_t(x), j = int32_t(y);
   switch (op) {

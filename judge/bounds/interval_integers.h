@@ -8,10 +8,11 @@ namespace trueshade::oracle {
 Interval as_unsigned(const Interval& x);
 Interval as_signed(const Interval& x);
 
-/// Operations of integers, and those that take floats apart: known where the operands are.
+/// Operations of integers, and those on the bits of floats: exact where all operands are known, else any integer.
 Interval of_integers(const programs::ProgramNode& node, const Interval& x, const Interval& y);
 
-/// A float as an integer. GLSL leaves what does not fit undefined.
+/// A float truncated toward zero to an integer of the node's type; any integer where x may not fit or may be NaN, which
+/// GLSL leaves undefined.
 Interval converted(const programs::ProgramNode& node, const Interval& x);
 
 }  // namespace trueshade::oracle

@@ -106,7 +106,7 @@ struct Profile {
   Arithmetic arithmetic;
 };
 
-/// Of a name in kDriverProfileNames; nothing for others.
+/// The profile of a name in kDriverProfileNames; nothing for other names.
 std::optional<Profile> profile_named(std::string_view name);
 
 /// Ideal's half mode follows the pipeline; the others' is their own.

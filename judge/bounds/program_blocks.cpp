@@ -40,7 +40,7 @@ ProgramLanes ProgramBounds::lanes_of_lights(std::span<const Step> steps, Block& 
   return lanes;
 }
 
-/// At most kIntervalLanes. Lanes behind the last light repeat the first one.
+/// Puts the values of at most kIntervalLanes lights into the lanes. Lanes behind the last light repeat the first one.
 void ProgramBounds::look_at(std::span<const uint32_t> lights, Block& block) const {
   for (const Rate rate : {Rate::light, Rate::pair}) block.of[size_t(rate)].resize(slots_[size_t(rate)] + 1);
   for (size_t i = 0; i < kIntervalLanes; ++i) {
@@ -160,7 +160,7 @@ void ProgramBounds::apart(const ShadedSurface& surface, std::span<const uint32_t
     if (lit.one_outcome[i] == 0) by_itself(i);
 }
 
-/// Lanes behind the last surface repeat the first one.
+/// Computes what depends on the surfaces alone, a surface a lane. Lanes behind the last surface repeat the first one.
 void ProgramBounds::look_at(std::span<const ShadedSurface* const> surfaces, Block& block) const {
   for (const Rate rate : {Rate::surface, Rate::pair}) block.of[size_t(rate)].resize(slots_[size_t(rate)] + 1);
   for (const auto& [slot, field] : surface_inputs_)
@@ -169,7 +169,8 @@ void ProgramBounds::look_at(std::span<const ShadedSurface* const> surfaces, Bloc
   run_program_lanes(lanes_of(of_surfaces_, Rate::surface, block, 0, block.left.data()));
 }
 
-/// Which of the lanes a light surely reaches; true where it is any. Lanes that it may or may not reach are left.
+/// Sets block.reached to the surfaces that a light surely reaches, and returns whether there are any. Sets block.left
+/// for those that it may or may not reach: they are judged one by one.
 bool ProgramBounds::find_reached(const Light& light, std::span<const ShadedSurface* const> surfaces,
                                  Block& block) const {
   bool any = false;
@@ -182,7 +183,8 @@ bool ProgramBounds::find_reached(const Light& light, std::span<const ShadedSurfa
   return any;
 }
 
-/// Of one light at the lanes that it reaches.
+/// Adds one light's terms to the sums of the lanes that it reaches. Sets block.left for lanes where a comparison may go
+/// either way or a term is not finite.
 void ProgramBounds::add(uint32_t light, size_t count, Block& block, std::span<BlockSum> sums) const {
   std::array<uint8_t, kIntervalLanes> open{};
   run_program_lanes(lanes_of(of_pairs_, Rate::pair, block, light, open.data()));

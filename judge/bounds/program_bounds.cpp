@@ -150,7 +150,8 @@ void ProgramBounds::run(std::span<const Step> steps, std::vector<Interval>& out,
   for (const Step& step : steps) out[step.slot] = evaluated(step, values, terms);
 }
 
-/// follow: decisions are taken, and comparisons that may go either way become open.
+/// Evaluates steps of one surface and one light.
+///   follow: a comparison that may go either way takes the result that r.decided says, or is added to r.open
 void ProgramBounds::run_pair(std::span<const Step> steps, Registers& r, bool follow) const {
   const Values values = values_of(r);
   std::vector<Interval>& out = r.of[size_t(Rate::pair)];
@@ -202,7 +203,7 @@ std::vector<ProgramBounds::Outcome> ProgramBounds::outcomes(Registers& r, size_t
   return out;
 }
 
-/// A light ends at its range where the pipeline gives it an extent.
+/// Whether the light reaches the surface: by its range where the pipeline gives it an extent, else surely.
 ProgramBounds::Reach ProgramBounds::reach_of(const Light& light, const ShadedSurface& surface) const {
   if (drawn_extent(light, volumes_) == LightExtent::unbounded) return Reach::surely;
   Bounded3 offset;
@@ -233,7 +234,8 @@ void ProgramBounds::look_at(const ShadedSurface& surface, Registers& r) const {
   run(of_surfaces_, own, values_of(r), r.terms);
 }
 
-/// One light's part of a sum. The surface has been looked at.
+/// Adds what one light may add to a surface, and counts it. Call look_at() of the surface before.
+///   ends: the light ends at its extent
 void ProgramBounds::add(const ShadedSurface& surface, uint32_t light, bool ends, Registers& r,
                         ProgramTotal& total) const {
   const Reach reach = ends ? reach_of(scene_.lights[light], surface) : Reach::surely;

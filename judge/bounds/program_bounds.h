@@ -74,7 +74,8 @@ class ProgramBounds {
   /// program's own intervals over all that the surfaces hold.
   void take_near(std::span<const ShadedSurface* const> surfaces, Block& block, std::vector<uint32_t>& near) const;
 
-  /// Each of these lights alone, a light a lane. The same values; bounds are no smaller where nothing may be NaN.
+  /// alone() of each of these lights, a light a lane. The values are the same; where nothing may be NaN, bounds are no
+  /// smaller.
   void apart(const ShadedSurface& surface, std::span<const uint32_t> lights, bool ends, Block& block,
              LitApart& lit) const;
 
@@ -96,7 +97,7 @@ class ProgramBounds {
   };
   Finished finished(const ShadedSurface& surface, const Bounded3& sum, Registers& registers) const;
 
-  /// Whether it reads a field, "surface.uv", or a part of one.
+  /// Whether the program reads a field, "surface.uv", or a part of it.
   bool reads(std::string_view field) const;
 
   /// Whether the surface shows its albedo, whatever the lights.

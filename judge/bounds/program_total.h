@@ -23,7 +23,10 @@ struct ProgramTotal {
     if (magnitude[k] > 0) added = 1;
   }
 
-  /// nominal: the outcome of real arithmetic; nothing where a light that may reach the surface does not.
+  /// Adds one light.
+  ///   outcomes: what it may add, one for each way that comparisons may go
+  ///   nominal:  the outcome of real arithmetic; nothing where, nominally, the light does not reach the surface
+  ///   perhaps_nothing: the light may not reach the surface
   void add(std::span<const std::array<Interval, 3>> outcomes, std::optional<size_t> nominal, bool perhaps_nothing) {
     std::array<Bounded, 3> chosen{};
     bool is_dark = true;  // adding a zero rounds nothing
@@ -50,7 +53,7 @@ struct ProgramTotal {
     if (perhaps_nothing && nominal) add(none, chosen);
   }
 
-  /// Another result that the bound does not hold already.
+  /// Adds another result of a light: as a branch or, where it lies within the bound of the chosen one, to the error.
   void add(const OtherBranch& other, const std::array<Bounded, 3>& chosen) {
     bool differs = false;
     for (size_t k = 0; k < 3; ++k) differs = differs || !(std::fabs(other.change[k]) <= chosen[k].error);

@@ -32,7 +32,7 @@ class LightFit {
   std::vector<FaultParameter> best() const;
 
  private:
-  /// A pixel as it was given and as it is predicted, before what is done to the picture afterwards.
+  /// A sampled pixel as captured, and as predicted without the faults that change a finished color.
   struct Seen {
     SampledPixel pixel;
     PlainSurface surface;
@@ -50,7 +50,7 @@ class LightFit {
   }
   Color shown(const Seen& seen, const Triple3& more) const;
   Color afterwards(const Seen& seen, Color value) const;
-  /// A pixel where one light is another: blend by blend, where lights are blended.
+  /// Predicts pixels with one light replaced by `now`; blend by blend, where lights are blended.
   class Relit {
    public:
     Relit(const LightFit& fit, size_t light, const Light& now) : fit_(fit), light_(light), pass_(fit.supposed_.pass) {
@@ -64,7 +64,7 @@ class LightFit {
     LightPass pass_;
   };
   double size_of(size_t light) const;
-  /// How far a channel is off, in steps, beyond what its store may be.
+  /// What was captured of a channel minus `value`, in steps; what the store may round away counts for a twentieth.
   double off(const Seen& seen, const Color& value, int channel) const;
   NormalEquations equations(size_t light, const Triple3& at, size_t most, double scale) const;
   double error(size_t light, const Triple3& at, double scale, size_t most = ~size_t(0)) const;
@@ -118,7 +118,7 @@ void LightFit::see_pixels() {
   std::stable_partition(seen_.begin(), seen_.end(), [](const Seen& s) { return s.changed; });
 }
 
-/// What is blended, as a sum.
+/// Where lights are blended: sets seen.value to the sum of what they add, without blending's rounding, and seen.adds.
 void LightFit::add_up(Seen& seen) const {
   LightPass dark = supposed_.pass;
   dark.lights.clear();
@@ -138,7 +138,7 @@ Color LightFit::Relit::at(const Seen& seen, const Triple3& more) const {
   return fit_.afterwards(seen, predicted_pixel(pass_, seen.surface, &listed).value);
 }
 
-/// What the picture stands for where the pixel is lit by so much more.
+/// The color of a pixel that receives `more` light than is predicted, under the faults that change a finished color.
 Color LightFit::shown(const Seen& seen, const Triple3& more) const {
   Color v = seen.value;
   for (size_t k = 0; k < 3; ++k) v[k] += last_ ? more[k] * seen.surface.albedo[k] : more[k];
@@ -152,7 +152,8 @@ Color LightFit::afterwards(const Seen& seen, Color v) const {
   return v;
 }
 
-/// How much of the vector is a small change: of positions a thousandth of how far the light is.
+/// A small change of one of the fault's numbers: 1e-3, or for a position a thousandth of the way from the light to the
+/// nearest surface.
 double LightFit::size_of(size_t light) const {
   if (fault_.start != 0 || supposed_.pass.lights[light].type == LightType::directional) return 1e-3;
   double nearest = HUGE_VAL;
@@ -163,8 +164,8 @@ double LightFit::size_of(size_t light) const {
   return 1e-3 * std::max(1e-3, std::sqrt(std::min(nearest, 1e12)));
 }
 
-/// Pixels are sampled by whether they are off, so what a store rounds away is not spread evenly over them: it counts
-/// for little, and every pixel for as much as the others.
+/// Pixels are sampled by whether they are off, so what a store rounds away is not spread evenly over them, and counts
+/// for little. Every pixel counts for as much as the others, whatever its weight.
 double LightFit::off(const Seen& seen, const Color& value, int channel) const {
   constexpr double kShare = 0.05;
   const auto k = size_t(channel);
@@ -216,7 +217,7 @@ NormalEquations LightFit::equations(size_t light, const Triple3& at, size_t most
   return n;
 }
 
-/// Of all pixels, by Cauchy's rule.
+/// The sum of the residuals by Cauchy's rule, with the light changed by `at`, over about `most` pixels.
 double LightFit::error(size_t light, const Triple3& at, double scale, size_t most) const {
   const Light here = changed(light, at);
   const Relit relit(*this, light, here);
@@ -258,7 +259,7 @@ Triple3 LightFit::fitted(size_t light, const Triple3& from) const {
   return at;
 }
 
-/// Where a step of least squares leads; nothing: to numbers that no light has.
+/// Where one step of least squares leads from `start`; nothing if to numbers that are negative or not finite.
 std::optional<Triple3> LightFit::first_step(size_t light, const Triple3& start, size_t most) const {
   const std::optional<Triple3> step = equations(light, start, most, farthest_).solved(1e-3);
   if (!step) return std::nullopt;
@@ -280,7 +281,7 @@ void LightFit::look_about(size_t light, double scale, Triple3& at) const {
       }
 }
 
-/// The shortest numbers that explain as much.
+/// The parameter with its numbers rounded to the coarsest unit that costs no more.
 FaultParameter LightFit::shortest(FaultParameter parameter) const {
   const double least = cost(parameter);
   for (const double unit : {0.1, 0.05, 0.01, 1e-3, 1e-4}) {

@@ -1,11 +1,11 @@
 #pragma once
-// One light that is not as it should be: which, and what is changed of it.
+// Finds which one light of a picture is wrong, and by which numbers it is changed.
 #include "judge/diagnosis/picture_case.h"
 
 namespace trueshade::oracle {
 
-/// Parameters of a fault of one light, as likely_parameters() has them: the lights that explain most by least squares
-/// in three numbers, such as an offset of their position.
+/// likely_parameters() of a fault of Search::one_light: the two lights at most whose change explains most, each with
+/// the fault's numbers, such as an offset of the light's position, by least squares. Empty where tiles are supposed.
 std::vector<FaultParameter> changed_lights(const PictureCase& picture, const PictureSupposition& supposed,
                                            const PictureFault& fault, const std::vector<SampledPixel>& pixels,
                                            const std::vector<double>& off_if_right);

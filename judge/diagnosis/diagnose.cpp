@@ -33,7 +33,8 @@ bool is_suspicious(const StageVerdict& stage) {
   return !stage.passes() || !least_likely(aggregate_tests(stage)).passes(kLeastChance);
 }
 
-/// The likeliest of both, and then the others. What is wrong in a plane may be why the picture is: planes come first.
+/// Joins findings about planes and about the picture, at most `most`: the first of each list, with what belongs to it
+/// or is tied with it, then the others. A wrong plane may be why the picture is wrong, so planes come first.
 std::vector<Finding> merged(std::vector<Finding> planes, std::vector<Finding> picture, size_t most) {
   const auto first = [](const std::vector<Finding>& list) {
     size_t count = std::min<size_t>(1, list.size());
@@ -50,8 +51,8 @@ std::vector<Finding> merged(std::vector<Finding> planes, std::vector<Finding> pi
   return findings;
 }
 
-/// Of what explains a picture by a line of its light program and by what is done to it or to its lights: what leaves
-/// least first, and of those alike what is not fitted, lines before others.
+/// Joins what explains a picture by a line of its light program (`lines`) and by other faults, at most `most`. What
+/// leaves least comes first; among findings that leave as little, lines come first, and fitted ones last.
 std::vector<Finding> best_of(std::vector<Finding> lines, std::vector<Finding> others, size_t most) {
   std::vector<Finding> all = std::move(lines);
   const size_t count = all.size();
@@ -84,8 +85,9 @@ struct Shown {
   const StageVerdict& stage;
 };
 
-/// The picture beside what should be made of its own G-buffer: by the camera of what was drawn, or by planes before
-/// they were written wrongly, if it is nearer to that.
+/// The picture, to be compared with what a light pass makes of its G-buffer. The pass reads the scene as asked, the
+/// scene that the likeliest fault of the planes draws, or the planes before they were written wrongly: whichever leaves
+/// the fewest pixels wrong.
 std::unique_ptr<PictureCase> picture_of(const Shown& s, const PlaneFindings& planes) {
   auto picture = std::make_unique<PictureCase>(s.scene, s.pipeline, s.profile, s.capture, s.stage);
   const auto try_other = [&](std::unique_ptr<PictureCase> other) {
@@ -100,8 +102,8 @@ std::unique_ptr<PictureCase> picture_of(const Shown& s, const PlaneFindings& pla
   return picture;
 }
 
-/// Whether a picture's small floats seem to be rounded as the pipeline does not say, which is no fault where the
-/// profile allows either.
+/// Whether one of the findings is that small floats are rounded by another rule than the pipeline's. It is no fault
+/// where the profile allows both rules.
 bool rounds_otherwise(std::span<const Finding> findings) {
   return std::any_of(findings.begin(), findings.end(),
                      [](const Finding& f) { return f.name == "store-nearest" || f.name == "store-truncated"; });
@@ -117,15 +119,16 @@ double first_score(const std::vector<Finding>& findings) {
   return findings.empty() ? 0 : findings[0].explained - findings[0].contradicted;
 }
 
-/// Before what is said of the others, if most that is wrong is under glass.
+/// Inserts the findings about glass: before the others if more pixels are wrong under glass than the first of the
+/// others is about, else behind them.
 void add_glass(std::vector<Finding> glass, std::vector<Finding>& findings) {
   const bool first = !glass.empty() && (findings.empty() || glass[0].changed > findings[0].changed);
   findings.insert(first ? findings.begin() : findings.end(), glass.begin(), glass.end());
 }
 
-/// What was looked for: a fault that leaves most of what is wrong unexplained, or anything far off, is no explanation:
-/// it comes behind those that are. Of two faults at once their share together counts. What is predicted of a picture,
-/// or drawn again, is exact, of planes within what interpolation leaves.
+/// Marks as partial, and puts last, each finding that leaves most of what is wrong unexplained, or pixels far off. Two
+/// faults at once are measured together. Predictions of a picture and of what is drawn again are exact, so hardly a
+/// pixel may be far off; those of planes are as exact as interpolation.
 std::vector<Finding> partial_last(std::vector<Finding> findings) {
   constexpr double kExplanation = 0.5, kOfFitted = 0.75, kLeftWhereExact = 0.005, kLeftOfPlanes = 0.05;
   std::vector<Finding> partial, whole;

@@ -1,5 +1,5 @@
 #pragma once
-// How far what was given is from what is predicted.
+// How far a capture is from what faults predict of it.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace trueshade::oracle {
 
-/// Beyond this many steps of what a plane stores a value is another one.
+/// Two values agree if they differ by less than so many steps of what the plane stores.
 inline constexpr double kSameSteps = 0.5;
 
 /// What a disagreement of so many steps costs: nothing, or from 0.15 for one step to 1 for a thousand. Coming nearer
@@ -18,8 +18,8 @@ inline double cost_of(double steps) {
   return std::min(1.0, 0.15 + 0.085 * std::log2(std::max(1.0, steps)));
 }
 
-/// What a pixel costs of which a fault predicts no number: less than one that is a step off, far more than one that is
-/// predicted. So a fault that predicts numbers comes first unless it leaves much unexplained.
+/// What a pixel costs where a fault predicts no number: less than a pixel that is a step off, and more than one that
+/// agrees, which costs 0. So a fault that predicts numbers comes first unless it leaves much unexplained.
 inline constexpr double kAnythingCost = 0.1;
 
 /// The share of the pixels that are wrong which a finding explains at least.
@@ -43,9 +43,9 @@ struct SampledPixel {
 /// Pixels that agree with a prediction, and what the others cost.
 struct Disagreement {
   double cost = 0;          ///< over all sampled pixels, by weight
-  double explained = 0;     ///< weight of the pixels that agree, of those that do not without the fault
-  double located = 0;       ///< weight of those of which no number is predicted, of those that do not agree without it
-  double contradicted = 0;  ///< weight of those that do not agree, of those that do without it
+  double explained = 0;     ///< weight of the pixels that agree under the fault, and do not without it
+  double located = 0;       ///< weight of those where the fault predicts no number, and that do not agree without it
+  double contradicted = 0;  ///< weight of those that do not agree under the fault, and do without it
 };
 
 /// A number as a fault's name has it: a whole one with all its digits, others with at most five that count.
@@ -58,7 +58,7 @@ std::string parameter_word(const Fault& fault, double value) {
   return word.find(' ') == std::string::npos ? word : parameter_text(value);
 }
 
-/// A fault with its numbers: `light-range=1.01`, `light-moved=3:0.5,0,0`; and in a sentence.
+/// A fault with its numbers: as a name, `light-range=1.01` or `light-moved=3:0.5,0,0`, and as a sentence.
 template <class Fault>
 std::string fault_name(const Fault& fault, const FaultParameter& parameter) {
   const ParameterForm form = fault.form();

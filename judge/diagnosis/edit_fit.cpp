@@ -51,7 +51,8 @@ double extent_of(const PlaneEvidence& evidence) {
   return extent > 0 && std::isfinite(extent) ? extent : 1;
 }
 
-/// Differences of what is captured of one pixel, six numbers.
+/// Appends six differences between a sketch and the capture at a pixel: three of the position or the depth, three of
+/// the normal. They are NaN where not both show the same object.
 void add_differences(const PlaneEvidence& evidence, double extent, const PlaneValues& sketched,
                      const PlaneValues& given, bool same, std::vector<double>& out) {
   const bool has_position = evidence.has_plane(Plane::position), has_normal = evidence.has_plane(Plane::normal);
@@ -82,7 +83,7 @@ class ObjectFit {
     sketch_.emplace(places_, evidence.pipeline);
   }
 
-  /// What is left under the fault; the object alone is drawn.
+  /// What the fault leaves of the differences at the object's pixels, six a pixel; the object alone is drawn.
   std::vector<double> residuals(const PlaneFault& fault, const FaultParameter& parameter) {
     Scene scene = bare_;
     Pipeline pipeline = evidence_.pipeline;
@@ -106,7 +107,8 @@ class ObjectFit {
     }
     return out;
   }
-  /// Along a face that is seen differences stay as they are, and the outline alone tells where the object ends.
+  /// The error of the residuals, and a cost of 1 for each pixel where the outline is wrong: it alone tells how far an
+  /// object is moved along a face.
   double cost(const PlaneFault& fault, const FaultParameter& parameter) {
     Scene scene = bare_;
     Pipeline pipeline = evidence_.pipeline;
@@ -128,7 +130,8 @@ class ObjectFit {
   std::optional<Sketch> sketch_;
 };
 
-/// All pixels that have a surface: where the camera puts the captured positions, or, without these, what it would show.
+/// Fits the camera to the pixels that have a surface. Residuals compare a pixel's place with where the camera projects
+/// the captured position or, where positions were not captured, the captured values with a sketch.
 class CameraFit {
  public:
   explicit CameraFit(const PlaneEvidence& evidence) : evidence_(evidence), bare_(bare_scene(evidence.scene, {})) {
@@ -190,7 +193,8 @@ class CameraFit {
   std::optional<Sketch> sketch_;
 };
 
-/// The best of several places to start from, for each object that is suspected, fitted.
+/// Fits the fault's vector from three of `suspects`, the first and the two that leave least, and returns the best fit.
+/// Empty where too few pixels tell, or no fit is finite.
 template <class Fitter>
 std::vector<FaultParameter> fitted_parameters(const PlaneFault& fault, std::span<const FaultParameter> suspects,
                                               Fitter& fitter) {
@@ -216,7 +220,8 @@ std::vector<FaultParameter> fitted_parameters(const PlaneFault& fault, std::span
   return {*best};
 }
 
-/// By the outline, which says nothing of mirrored objects: most bodies have the same.
+/// Improves the parameter's vector by the object's outline. Leaves mirrored objects as they are: most bodies have the
+/// same outline when mirrored.
 void settle(const PlaneFault& fault, ObjectFit& fitter, FaultParameter& parameter) {
   const auto is_mirror = [&](double v) { return fault.start == 1 && v < 0; };
   if (std::any_of(parameter.vector.begin(), parameter.vector.end(), is_mirror)) return;

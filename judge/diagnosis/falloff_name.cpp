@@ -43,7 +43,7 @@ constexpr KnownFalloff kFalloffs[] = {
 
 constexpr double kSlack = 1.15;  // a named curve may leave so much more than the free one
 
-/// What lights would add to a pixel without their falloff: also those that end before it.
+/// What each light would add to a pixel without its falloff, also a light that ends before the pixel.
 struct Unfallen {
   Triple3 rest{};  ///< what is given, without what comes from lights that have no falloff
   std::vector<std::pair<const Light*, double>> lights;  ///< and the distance
@@ -79,7 +79,8 @@ std::vector<Unfallen> unfallen(const LightShares& shares, const KnownFalloff& ou
   return out;
 }
 
-/// What is left where lights fall off so, times what fits best.
+/// LightShares::left_of() where all lights have this falloff, times one factor.
+///   scale: receives the factor, the one that fits best
 double left_under(const LightShares& shares, const KnownFalloff& falloff, const std::vector<Unfallen>& all,
                   double& scale) {
   std::vector<Triple3> made(all.size());
@@ -100,7 +101,7 @@ double left_under(const LightShares& shares, const KnownFalloff& falloff, const 
   return shares.left_of(error);
 }
 
-/// Whether a light that is moved along its way to a pixel adds as much more or less there.
+/// Whether the light of `s` changes as the known falloff says when it is moved nearer to the pixel and farther away.
 bool moves_like(const LightShares& shares, const KnownFalloff& known, const SharedPixel& pixel, const Share& s) {
   LightPass moved = shares.pass();
   Light& light = moved.lights[s.light];
@@ -117,7 +118,7 @@ bool moves_like(const LightShares& shares, const KnownFalloff& known, const Shar
   return true;
 }
 
-/// The known falloff that the right light pass has: a light is moved along its way to a pixel and asked again.
+/// The known falloff that the right light pass has, by moves_like() of some pixels; null where it has none of them.
 const KnownFalloff* own_falloff(const LightShares& shares) {
   for (const KnownFalloff& known : kFalloffs) {
     size_t same = 0, asked = 0;

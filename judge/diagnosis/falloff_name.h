@@ -4,8 +4,8 @@
 
 namespace trueshade::oracle {
 
-/// Where one of the known falloffs leaves as little as the curve, or less, it is the better description.
-///   q: by distance; gets its text and what is left
+/// Describes a curve by a falloff that renderers use, where one leaves hardly more of the difference than the curve.
+///   q: a curve against "d / range"; then its `text` and `left` are the falloff's
 void name_falloff(const LightShares& shares, LightQuotient& q);
 
 }  // namespace trueshade::oracle

@@ -92,7 +92,7 @@ double Estimate::stepped(double parameter) const {
   return parameter * std::exp(std::clamp(numerator / denominator, -0.7, 0.7));
 }
 
-/// Golden sections about a parameter.
+/// The best parameter within one percent of this one, by golden sections.
 double Estimate::narrowed(double parameter) const {
   constexpr double kRatio = 0.6180339887498949;
   double low = parameter / 1.01, high = parameter * 1.01;
@@ -110,7 +110,7 @@ double Estimate::narrowed(double parameter) const {
   return std::min(cost_a, cost_b) < cost(parameter) ? best : parameter;
 }
 
-/// The shortest number that explains as much.
+/// The parameter rounded to as few digits as cost no more; as it is, where four digits cost more.
 double Estimate::short_number(double parameter) const {
   const double least = cost(parameter);
   for (const int digits : {1, 2, 3, 4}) {
@@ -148,7 +148,7 @@ double Estimate::smooth() const {
   return short_number(narrowed(best.parameter));
 }
 
-/// Pixels that are not as they should be, with what was predicted.
+/// Calls `see` with each pixel that is wrong and the surface that it shows, for at most kMostVoters pixels.
 template <class See>
 void Estimate::each_voter(const See& see) const {
   size_t voters = 0;
@@ -163,7 +163,7 @@ void Estimate::each_voter(const See& see) const {
   }
 }
 
-/// Whether a value, after what else is supposed, is what was given.
+/// Whether a value, under the faults that change a finished color, is within `steps` of what was captured.
 bool Estimate::fits(const Color& value, const SampledPixel& pixel, double steps) const {
   Color v = value;
   for (const PictureSupposition::Step& step : supposed_.steps) step.change(v, step.parameter, pixel.x, pixel.y);
@@ -196,7 +196,8 @@ std::vector<double> Estimate::lights(double sign) const {
   return best;
 }
 
-/// Differences are of values by the steps of their format: beyond one, or beyond many.
+/// The vector that fits all pixels best, by least squares of their differences in steps of the format. Empty where the
+/// best vector changes nothing.
 std::vector<FaultParameter> Estimate::vectors() const {
   constexpr double kScales[] = {64, 8, 2, 0.5};
   const Residuals residuals = [&](const Triple3& vector) {
@@ -262,7 +263,7 @@ std::vector<double> Estimate::counts(bool at_pixel) const {
   return {climbed(round_number(low, high))};
 }
 
-/// The count beside which no other is better, in ever smaller steps.
+/// The count that costs least near `count`, found by steps of 8, 4, 2 and 1.
 double Estimate::climbed(double count) const {
   double least = cost(count);
   for (double step = 8; step >= 1; step /= 2)

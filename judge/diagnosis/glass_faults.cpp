@@ -21,7 +21,7 @@ void leave_out(GlassPixel& p, double) { p.layers.clear(); }
 void leave_one_out(GlassPixel& p, double object) {
   std::erase_if(p.layers, [object](const GlassLayer& l) { return l.instance == uint32_t(object); });
 }
-/// Triangles of an object stay in their order.
+/// Turns the order of the objects round; triangles of one object stay in their order.
 void turn_order(GlassPixel& p, double) {
   std::stable_sort(p.layers.begin(), p.layers.end(),
                    [](const GlassLayer& a, const GlassLayer& b) { return a.instance > b.instance; });
@@ -172,7 +172,7 @@ double GlassCase::off(const Seen& seen, const Color& shown) const {
   return most;
 }
 
-/// Every fault, and of those of an object the objects that are seen.
+/// Every fault that may be supposed; a fault of one object for each object, of 64 at most, at a wrong pixel.
 std::vector<NamedGlassFault> GlassCase::all() const {
   std::vector<uint32_t> objects;
   for (const Seen& s : seen_)

@@ -7,7 +7,7 @@ namespace trueshade::oracle {
 /// One fragment of glass at a pixel.
 struct GlassLayer {
   uint32_t instance = 0;
-  double distance = 0;  ///< of the middle of its object, from the eye
+  double distance = 0;  ///< squared, from the eye to the origin of the object
   Color color{};        ///< lit, and its alpha
 };
 
@@ -32,8 +32,10 @@ struct NamedGlassFault {
   FaultParameter parameter;
 };
 
-/// Findings about the pixels under glass, the likeliest first, as diagnose() has them. Of `after-lights` alone.
-///   picture: of the same capture, which knows what the lights make
+/// Findings about the pixels under glass, the likeliest first, as diagnose() has them. For
+/// TransparencyMode::after_lights.
+///   picture: of the same capture; predicts what the lights make before glass is drawn
+///   only: faults that are supposed, one at a time; empty: look for the likeliest
 std::vector<Finding> glass_findings(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                                     const Capture& capture, const StageVerdict& stage, const PictureCase& picture,
                                     std::span<const NamedGlassFault> only);

@@ -15,7 +15,8 @@ struct NormalEquations {
   std::array<Triple3, 3> a{};
   Triple3 b{};
 
-  /// Solved with so much added to the diagonal; nothing where it is singular.
+  /// The solution of a x = b once each element of the diagonal has grown by `damping` times itself; nothing where the
+  /// system is singular.
   std::optional<Triple3> solved(double damping) const {
     std::array<Triple3, 3> m = a;
     // A direction has a length to spare, along which nothing pulls: the trace keeps steps from growing there.
@@ -29,23 +30,24 @@ struct NormalEquations {
   }
 };
 
-/// What is left of each measurement at three numbers, always as many; not a number: there is nothing to compare.
+/// The residual of each measurement at three numbers, always as many residuals. NaN: there is nothing to compare.
 using Residuals = std::function<std::vector<double>(const Triple3& at)>;
 
 /// What three numbers are fitted to.
 struct LeastSquares {
   Residuals residuals;
-  int numbers = 3;                 ///< of the three, that are looked for
-  double size = 1e-4;              ///< of a small change
-  std::span<const double> scales;  ///< residuals beyond which there is another cause, from the widest
-  double none = 0;                 ///< of each number: what changes nothing
+  int numbers = 3;                 ///< how many of the three are fitted
+  double size = 1e-4;              ///< of a small change of a number
+  std::span<const double> scales;  ///< residuals beyond which another cause is likely; descending
+  double none = 0;                 ///< the value of a number that changes nothing
 };
 
-/// The sum by Cauchy's rule; what cannot be compared counts for as much as what is far off.
+/// The sum of residuals by Cauchy's rule, log(1 + (r / scale)^2), each 20 at most. NaN counts for 20, or for 1 at
+/// scales below 1e-3.
 double robust_error(const std::vector<double>& residuals, double scale);
 
-/// Levenberg and Marquardt's steps from `at`, with each scale in turn; then the shortest numbers that fit as well,
-/// those that no residual shows left at what changes nothing.
+/// Fits the numbers from `at` by Levenberg and Marquardt's steps, with each scale in turn. Then numbers whose change
+/// shows in no residual are set to `none`, and all are rounded to the coarsest unit that fits as well.
 Triple3 fitted(const LeastSquares& problem, Triple3 at);
 
 }  // namespace trueshade::oracle

@@ -14,7 +14,7 @@ namespace trueshade::oracle {
 
 namespace {
 
-/// The surface where the pass takes it to be.
+/// The surface at the position that the pass rebuilds of its depth, by LightFault::near and far.
 PlainSurface taken(const LightPass& pass, PlainSurface surface) {
   const LightFault& f = pass.fault;
   if ((f.near == 1 && f.far == 1) || !surface.covered) return surface;
@@ -34,7 +34,7 @@ std::optional<Triple3> eye_of(const Matrix4& clip) {
   return times(sum, -1 / determinant);
 }
 
-/// What the sum starts from.
+/// What the sum of lights starts from: emission and ambient light.
 Triple3 start_of(const LightPass& pass, const PlainSurface& surface) {
   const LightModel& model = pass.pipeline.light_model;
   Triple3 out{};
@@ -56,7 +56,7 @@ double output_of(const LightPass& pass, double x) {
   return pass.pipeline.light_model.clamp_result ? std::clamp(x, 0.0, 1.0) : x;
 }
 
-/// Which lights are drawn at a pixel, in order, each handed to `draw`.
+/// Calls draw(index, light, times) for each light that is drawn at the pixel, in the order of drawing.
 template <class Draw>
 void each_light(const LightPass& pass, const PlainSurface& surface, const PredictedTerms& maker,
                 const std::vector<uint8_t>* listed, const Draw& draw) {

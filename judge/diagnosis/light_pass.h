@@ -50,7 +50,7 @@ struct LightFault {
   uint32_t most_at_pixel = std::numeric_limits<uint32_t>::max();              ///< of those in range of a pixel
   bool reversed = false, normal_turned = false, swapped_colors = false, mirrored_z = false;
   bool no_ambient = false, cone_dropped = false;
-  double near = 1, far = 1;     ///< factors of the planes that positions are rebuilt from depths with
+  double near = 1, far = 1;     ///< factors of the planes by which positions are rebuilt from depths
   bool normal_in_view = false;  ///< rotated by the camera, and then read as if in the world
 };
 
@@ -76,29 +76,31 @@ LightPass light_pass_of(const Scene& scene, const Pipeline& pipeline);
 /// RGBA of one pixel.
 struct PredictedPixel {
   std::array<double, 4> stored{};  ///< as PlaneView::stored() has it: codes, or floats
-  std::array<double, 4> value{};   ///< before the only store; of strategies that blend what `stored` stands for
+  std::array<double, 4> value{};   ///< before the store; of strategies that blend, the value of `stored`
 };
-/// What the pixel stands for once a light is added, light by light.
+/// One light in the order of drawing, and what the pixel stands for once it is added.
 struct TracedLight {
   uint32_t light = 0;
   bool in_range = true, adds = false;
   std::array<double, 4> value{};
 };
 
+/// What the pass makes of a pixel that shows `surface`; where that is not covered, the clear color.
 ///   listed: whether each light is in the list that the pixel is lit from; null: all are
 ///   trace: null, or what takes the lights in the order in which they are added
 PredictedPixel predicted_pixel(const LightPass& pass, const PlainSurface& surface,
                                const std::vector<uint8_t>* listed = nullptr, std::vector<TracedLight>* trace = nullptr);
 
-/// A value as the target stores it, and what a stored one stands for.
+/// The code or float that the target stores for a value, and the value that a stored code or float stands for.
 double stored_value(const Pipeline& pipeline, LightFault::Store rule, double value, int channel);
 double value_of_stored(Format target, double stored, int channel);
 
-/// What the lights of the pass add to the pixel, in order, of those that add something.
+/// A light that adds something to a pixel, and what all its fragments add.
 struct LightAdded {
   uint32_t light = 0;
   std::array<double, 3> term{};
 };
+/// The lights that add something to the pixel, by ascending index. Faults that choose lights are not regarded.
 std::vector<LightAdded> lights_added(const LightPass& pass, const PlainSurface& surface);
 
 }  // namespace trueshade::oracle

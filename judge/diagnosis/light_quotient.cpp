@@ -173,7 +173,7 @@ class QuotientFit {
     return solved_with_light(a, b);
   }
 
-  /// Whether it says that the light is as it should be, so that what is wrong is no light.
+  /// Whether a quotient has no factor but 1, so that something other than light is wrong.
   static bool is_right(const LightQuotient& q) {
     constexpr double kOff = 0.005;
     return q.against != "light" && std::all_of(q.curve.begin(), q.curve.end(), [](const LightQuotient::Step& step) {

@@ -33,12 +33,13 @@ class LightShares {
   const std::vector<SharedPixel>& pixels() const { return pixels_; }
   bool differs() const { return before_ > 0; }
 
-  /// Squares of a difference, in errors.
+  /// The sum of squares of a difference at a pixel, in units of its error.
   static double squared(const SharedPixel& p, const Triple3& off) {
     return p.weight[0] * off[0] * off[0] + p.weight[1] * off[1] * off[1] + p.weight[2] * off[2] * off[2];
   }
 
-  /// Squares of what is left, in errors, where each term is changed by a part of it.
+  /// The sum of squares, in units of the errors, that is left of all differences where part(share) of each light's term
+  /// is added to what is right.
   template <class Part>
   double error_with(const Part& part) const {
     double sum = 0;
@@ -49,7 +50,9 @@ class LightShares {
     }
     return sum;
   }
-  /// A share of the difference, without what rounding leaves of a right picture: a third of the squared half step.
+  /// The root mean square of what is left, as a share of that of the whole difference. Both go without what rounding
+  /// leaves of a right picture: a third of the squared half step a channel.
+  ///   error: the sum of squares of what is left
   double left_of(double error) const {
     double rounding = 0;
     for (const SharedPixel& p : pixels_)

@@ -122,7 +122,8 @@ bool no_normal_maps(Scene& s, Pipeline&, double) {
   for (Material& m : s.materials) any = any || m.normal_map.used(), m.normal_map.texture = -1;
   return any;
 }
-/// Changes the tangents of meshes that a normal map is laid on.
+/// Calls change(mesh) for each object whose mesh has tangents and whose material has a normal map. Returns whether any
+/// call returned true.
 template <class Change>
 bool change_tangents(Scene& s, const Change& change) {
   bool any = false;
@@ -132,7 +133,8 @@ bool change_tangents(Scene& s, const Change& change) {
   }
   return any;
 }
-/// Triangles' own frames have green along v, which runs downward in glTF's pictures, where tangents have it upward.
+/// Deletes the tangents and turns green round: the frames of triangles have green along v, which runs downward in
+/// glTF's pictures, and tangents have it upward.
 bool no_tangents(Scene& s, Pipeline& p, double) {
   const bool any = change_tangents(s, [](Mesh& mesh) {
     mesh.tangent = {};
@@ -155,7 +157,7 @@ bool scale_normal_maps(Scene& s, Pipeline&, double f) {
 
 // --- which, and by how much
 
-/// Materials or objects that have wrong pixels, by what `key` says, at most two.
+/// The two keys, at most, with the most wrong pixels. key(pixel): the number of a material or an object; below 0: none.
 template <class Key>
 std::vector<double> most_wrong(const PlaneEvidence& e, const Key& key) {
   std::map<double, double> votes;
@@ -227,7 +229,8 @@ Suspects half_texels(const PlaneEvidence& e) {
   return all;
 }
 
-/// The middle of what `number` says of the pixels, along u and v.
+/// The median of number(pixel, k) over the pixels, of u (k = 0) and of v (k = 1): rounded, and as it is. Empty where uv
+/// was not captured.
 template <class Number>
 Suspects middle_of(const PlaneEvidence& e, const Number& number) {
   Triple3 found{};

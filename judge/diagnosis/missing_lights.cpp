@@ -10,7 +10,7 @@ namespace {
 constexpr double kNextToNothing = 0.2;  // of the difference
 constexpr double kClear = 12;           // squares of errors, of three channels
 
-/// The lights that add most to the sampled pixels.
+/// The lights that add most to the sampled pixels, 64 at most, the strongest first.
 std::vector<uint32_t> lights_of(const LightShares& shares) {
   constexpr size_t kMost = 64;
   std::vector<double> sum(shares.scene().lights.size());
@@ -24,8 +24,8 @@ std::vector<uint32_t> lights_of(const LightShares& shares) {
   return out;
 }
 
-/// What is left where each pixel goes without those of the lights that it is nearest to being without.
-///   told: called for each of them that adds to a pixel by more than its rounding
+/// The sum of squares that is left if each pixel lacks the subset of `lights` whose absence explains it best.
+///   told(i, is_missing): called at each pixel for each of `lights` that adds more than rounding to it
 template <class Told>
 double error_without(const LightShares& shares, const std::vector<uint32_t>& lights, const Told& told) {
   double error = 0;

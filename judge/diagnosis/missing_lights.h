@@ -7,8 +7,9 @@
 
 namespace trueshade::oracle {
 
-/// What explains a picture as lights that are there at some pixels and missing at others, as behind what stands in
-/// their way: one after the other, those whose absence explains most. Nothing where more than next to nothing is left.
+/// Explains a picture by up to four lights that are missing, everywhere or at some pixels as in a shadow. They are
+/// chosen one after the other, by how much their absence explains. Nothing where a fifth of the difference or more is
+/// left.
 std::optional<LightQuotient> missing_lights(const LightShares& shares);
 
 }  // namespace trueshade::oracle

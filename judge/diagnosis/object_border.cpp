@@ -10,7 +10,7 @@ namespace {
 constexpr size_t kMostPlaces = 1500;     ///< pixels: a sketch is drawn of them some hundred times
 constexpr size_t kMostOutlined = 20000;  ///< triangles of the mesh
 
-/// Whether any of the four pixels beside it shows the object, or does not.
+/// Whether any of a pixel's four neighbours shows the object of this number or, where `shows` is false, does not.
 bool has_beside(const PlaneEvidence& evidence, int x, int y, double number, bool shows) {
   constexpr int kBeside[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
   return std::any_of(std::begin(kBeside), std::end(kBeside), [&](const int(&d)[2]) {
@@ -64,7 +64,7 @@ Triple3 moved(Triple3 at, size_t number, double by) {
   return at;
 }
 
-/// How far a number may go one way until it costs more.
+/// How far a number can go from `at`, in the direction of `step` and with its sign, at a cost of no more than `most`.
 double room(const Cost& cost, const Triple3& at, size_t number, double step, double most) {
   double far = 0;
   for (double next = step; std::fabs(next) < 4096 * std::fabs(step) && cost(moved(at, number, next)) <= most; next *= 2)
@@ -74,7 +74,8 @@ double room(const Cost& cost, const Triple3& at, size_t number, double step, dou
   return far;
 }
 
-/// The best of places along each number: between a place and the right one all outlines may be as wrong.
+/// Moves `at` to the best of many places along one number. Small steps alone may not get there: between `at` and the
+/// right place all outlines may be as wrong.
 void look_along(const Cost& cost, int numbers, double step, Triple3& at, double& least) {
   constexpr int kMostSteps = 16;
   const Triple3 from = at;
@@ -89,7 +90,7 @@ namespace {
 
 constexpr double kNoise = 1.5;  ///< a pixel, and what differences of the last digits sum up to
 
-/// Each number as short as it may be.
+/// Each number rounded to the coarsest unit that costs no more than `most`.
 Triple3 shortened(const Cost& cost, int numbers, double most, Triple3 at) {
   for (size_t k = 0; k < size_t(numbers); ++k)
     for (const double unit : {1.0, 0.5, 0.1, 0.05, 0.01, 1e-3, 1e-4}) {

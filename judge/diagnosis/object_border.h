@@ -1,6 +1,6 @@
 #pragma once
-// Where an object is seen to end: what tells how far it is moved along a face, on which all that is captured stays as
-// it was.
+// The outline of an object. Where an object is moved along one of its faces, the captured values on the face stay as
+// they are, and only the outline tells how far it is moved.
 #include <functional>
 #include <optional>
 
@@ -10,7 +10,8 @@
 
 namespace trueshade::oracle {
 
-/// The pixels on both sides of an object's outline in the plane of identifiers; of many some.
+/// The pixels on both sides of an object's outline in the plane of identifiers; 1500 at most, spread over all of it.
+/// Empty where this plane was not captured.
 std::vector<SampledPixel> outline_of(const PlaneEvidence& evidence, uint32_t object);
 
 /// An object's outline, and the sample. Borrows the evidence.
@@ -18,7 +19,8 @@ class ObjectBorder {
  public:
   ObjectBorder(const PlaneEvidence& evidence, uint32_t object);
 
-  /// Of how many pixels the scene, drawn with this object alone, has the object where it is not, or not where it is.
+  /// Draws the scene's object alone, and counts the pixels that show it and are not drawn, or are drawn and do not show
+  /// it. A pixel that shows a nearer surface does not count.
   int mismatches(const Scene& scene, const Pipeline& pipeline);
   bool empty() const { return places_.empty(); }
 
@@ -29,9 +31,10 @@ class ObjectBorder {
   std::optional<Sketch> sketch_;
 };
 
-/// Three numbers of a fault by a cost that has steps: from `at` along each number, and then the middle of those that
-/// cost as little, rounded to what people write.
-///   size: of a small change
+/// The numbers of a fault that cost least, for a cost that changes in steps, as a count of pixels does. Looks from `at`
+/// along each number, takes the middle of those that cost as little, and rounds it as people write numbers.
+///   numbers: how many of the three are looked for
+///   size: of a small change of a number
 Triple3 settled(const std::function<double(const Triple3&)>& cost, int numbers, double size, Triple3 at);
 
 }  // namespace trueshade::oracle

@@ -17,7 +17,7 @@ Instance* object_of(Scene& s, const P& p) {
   return p.number < double(s.instances.size()) ? &s.instances[size_t(p.number)] : nullptr;
 }
 
-/// A mesh of the object's own, that no other shares.
+/// Gives the object its own copy of its mesh, and returns the copy; null where the scene has no such object.
 Mesh* own_mesh(Scene& s, const P& p) {
   Instance* object = object_of(s, p);
   if (object == nullptr) return nullptr;
@@ -33,8 +33,8 @@ bool move_object(Scene& s, Pipeline&, const P& p) {
   return o != nullptr && p.vector != Triple3{};
 }
 
-/// Rodrigues: by the vector's length in degrees about its direction.
-Triple3 turned_about(const Triple3& v, const Triple3& degrees) {
+/// v turned about the direction of `degrees`, by its length in degrees (Rodrigues).
+Triple3 turned(const Triple3& v, const Triple3& degrees) {
   const double angle = std::sqrt(inner(degrees, degrees)) * std::acos(-1.0) / 180;
   const Triple3 axis = unit(degrees), across = cross(axis, v),
                 along = times(axis, inner(axis, v) * (1 - std::cos(angle)));
@@ -81,7 +81,7 @@ bool turn_normals(Scene& s, Pipeline&, const P& p) {
   return true;
 }
 
-/// Triangles from the first number on, as many as the second says.
+/// Deletes triangles of the object: vector[1] of them, from number vector[0] on. False where there are none.
 bool drop_triangles(Scene& s, Pipeline&, const P& p) {
   Mesh* mesh = own_mesh(s, p);
   if (mesh == nullptr || !(p.vector[0] >= 0) || !(p.vector[1] >= 1)) return false;
@@ -94,7 +94,7 @@ bool drop_triangles(Scene& s, Pipeline&, const P& p) {
   return true;
 }
 
-/// All objects of the mesh have it.
+/// Moves vertex `part` of the object's mesh, for all objects that share the mesh.
 bool move_vertex(Scene& s, Pipeline&, const P& p) {
   Instance* o = object_of(s, p);
   if (o == nullptr || !(p.part < double(s.meshes[o->mesh].vertex_count())) || p.vector == Triple3{}) return false;
@@ -130,7 +130,7 @@ Suspects every_object(const PlaneEvidence& e, std::initializer_list<Triple3> fro
 
 Suspects that_are_wrong(const PlaneEvidence& e) { return every_object(e, {Triple3{}}); }
 
-/// Where the middle of its pixels went.
+/// Each suspected object, not moved, and moved as the mean position of its pixels is.
 Suspects that_moved(const PlaneEvidence& e) {
   Suspects all;
   for (const uint32_t object : suspected_objects(e)) {
@@ -173,7 +173,8 @@ Suspects that_have_another_size(const PlaneEvidence& e) {
                           {1, 1, 0.5}});
 }
 
-/// From the first to the last triangle that should be seen and is not.
+/// Each suspected object, without the triangles from the first to the last one that should be seen and is not, and
+/// without more on either side.
 Suspects that_lack_triangles(const PlaneEvidence& e) {
   Suspects all;
   for (const uint32_t object : suspected_objects(e)) {
@@ -198,7 +199,7 @@ Suspects that_lack_triangles(const PlaneEvidence& e) {
   return all;
 }
 
-/// The vertices that most of the wrong pixels' triangles have, and none of the right ones'.
+/// Each suspected object with four vertices: those of the triangles of the most wrong pixels and the fewest right ones.
 Suspects that_have_a_wrong_vertex(const PlaneEvidence& e) {
   Suspects all;
   for (const uint32_t object : suspected_objects(e)) {
@@ -216,7 +217,8 @@ Suspects that_have_a_wrong_vertex(const PlaneEvidence& e) {
   return all;
 }
 
-/// By its identifier, or by the colours that come nearest.
+/// Each suspected object with the material that most of its pixels show: by the identifier or, where that was not
+/// captured, by the base color that comes nearest.
 Suspects that_have_another_material(const PlaneEvidence& e) {
   Suspects all;
   for (const uint32_t object : suspected_objects(e)) {

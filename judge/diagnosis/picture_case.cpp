@@ -25,7 +25,7 @@ void thin_out(std::vector<uint32_t>& pixels, size_t most) {
   pixels.resize(most);
 }
 
-/// What a plane of that format gives back for a value.
+/// What is read back of a value once a plane of the format `of_plane.target` has stored it.
 double held_value(const Pipeline& of_plane, double value, int channel) {
   return value_of_stored(of_plane.target, stored_value(of_plane, LightFault::Store::right, value, channel), channel);
 }
@@ -88,7 +88,8 @@ void PictureCase::make_tiles() {
   if (tiles_ == nullptr) tiles_ = std::make_shared<TileLists>(captured_, pipeline_.width, pipeline_.height);
 }
 
-/// Pixels under transparent surfaces are not predicted.
+/// Chooses the two samples. They leave out pixels under transparent surfaces, which are not predicted, and pixels where
+/// the capture holds the nominal value and the prediction is another.
 void PictureCase::draw_sample(const StageVerdict& stage, const Profile& profile, const Capture& capture) {
   std::optional<TransparentLayers> layers;
   if (draws_transparent(scene_, pipeline_) && pipeline_.transparency.mode == TransparencyMode::after_lights)

@@ -1,5 +1,6 @@
 #pragma once
-// A captured picture against what its own G-buffer should have made it, under any faults that are supposed.
+// Compares a captured picture with the one that a light pass, right or with supposed faults, makes of the capture's own
+// G-buffer.
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -17,9 +18,10 @@
 
 namespace trueshade::oracle {
 
-/// Pixels as a light pass made them, so that what is done to the picture afterwards can be tried again and again.
+/// Keeps pixels that a light pass has made, so that many faults of what follows the pass can be tried on them.
 class KnownPixels {
  public:
+  /// The pixel at (x, y), which `make` computes at the first call; from any thread.
   template <class Make>
   PredictedPixel at(int x, int y, const Make& make) {
     const uint64_t key = uint64_t(uint32_t(y)) << 32 | uint32_t(x);
@@ -46,11 +48,11 @@ struct PictureSupposition {
   };
   std::vector<Step> steps;
   Move move;
-  int tile = 0, tile_from = 0;  ///< pixels a side of tiles; whose lists they have, of eight neighbours, or their own
-  int tile_most = std::numeric_limits<int>::max();  ///< lights that a list holds
-  double reach = 0;
-  int stale = 0;                       ///< pixels a side of tiles, those of which that stand out hold anything
-  std::shared_ptr<KnownPixels> known;  ///< by the pass; null: not worth keeping
+  int tile = 0, tile_from = 0;                      ///< side in pixels of tiles, 0: none; TileLists::list()'s `from`
+  int tile_most = std::numeric_limits<int>::max();  ///< the most lights in a tile's list
+  double reach = 0;                                 ///< steps that a value may be off before its store: a dither's
+  int stale = 0;                       ///< side in pixels of tiles, of which those that stand out hold anything; or 0
+  std::shared_ptr<KnownPixels> known;  ///< pixels that `pass` made; null: none are kept
 
   void suppose(const PictureFault& fault, const FaultParameter& parameter);
 };
@@ -67,41 +69,46 @@ class PictureCase {
     return s;
   }
   const std::vector<SampledPixel>& sample() const { return sample_; }
-  const std::vector<SampledPixel>& few() const { return few_; }  ///< of the sample, for a first look
+  const std::vector<SampledPixel>& few() const { return few_; }  ///< a smaller sample, for a first look
 
-  /// How many steps of the format the pixel is off.
+  /// How far the captured pixel is from the prediction: the largest difference of a channel, in steps of the format. 0
+  /// below kSameSteps, and in a tile that is supposed to be stale.
   double steps_off(const PictureSupposition& supposed, const SampledPixel& pixel) const;
-  /// Over pixels, against what they are off where nothing is wrong.
+  /// Sums up how well supposed faults predict `pixels`, which of these they explain and which they contradict.
+  ///   off_if_right: steps_off() of each of `pixels` without any fault
   Disagreement disagreement(const PictureSupposition& supposed, const std::vector<SampledPixel>& pixels,
                             const std::vector<double>& off_if_right) const;
   std::vector<double> steps_off(const PictureSupposition& supposed, const std::vector<SampledPixel>& pixels) const;
 
-  /// Channel by channel: what the picture stands for before it is stored, and after.
+  /// A pixel under the supposed faults. Those that change a finished color may act before the target stores it or
+  /// after; both are predicted.
   struct Prediction {
-    Color drawn;            ///< where the faults come before the store
-    Color stored, nearest;  ///< where they come after it, stored again as the pipeline says, or to nearest
-    Color value;            ///< of `drawn`, before the store
+    Color drawn;            ///< what is stored if they act before the store
+    Color stored, nearest;  ///< if they act after it, and are stored again: as the pipeline says, or to nearest
+    Color value;            ///< the number whose store is `drawn`
   };
   Prediction predicted(const PictureSupposition& supposed, int x, int y) const;
   double given(int x, int y, int channel) const { return color_.stored(x, y, channel); }
   Color given_value(int x, int y) const;
   int channels() const { return std::min(color_.channels, 4); }
   double steps_off(const PictureSupposition& supposed, const Prediction& predicted, int x, int y, int channel) const;
-  /// The number that a supposition predicts: what was given, where it is as good as what is predicted.
+  /// The number to report as predicted: the captured one where it agrees with the prediction, else predicted.stored.
   double shown(const PictureSupposition& supposed, const Prediction& predicted, int x, int y, int channel) const;
   bool in_stale_tile(const PictureSupposition& supposed, int x, int y) const;
-  /// Whether what is left beside the values that are predicted is a dither's. Of codes that are stored once.
+  /// Whether the captured codes differ from the predicted values as a dither makes them. For codes that are stored
+  /// once.
   bool looks_dithered(const PictureSupposition& supposed) const;
-  /// One step of the format, in values, about a value.
+  /// How far neighbouring numbers of the target's format lie apart near `value`; 1e-5 of it for 32-bit floats.
   double step_at(double value, int channel) const;
 
   PlainSurface surface(int x, int y) const;
-  /// From now on the planes that are wrong are read as they should be. Not while others ask.
+  /// From now on surface() takes the planes that are wrong from `expected`, not from the capture. Not while other
+  /// threads ask.
   void heal(std::shared_ptr<const ExpectedPlanes> expected, const std::array<bool, kPlanes>& wrong) {
     expected_ = std::move(expected), wrong_ = wrong;
     known_ = std::make_shared<KnownPixels>();
   }
-  /// The pixel that is shown at (x, y).
+  /// The pixel of the drawn picture that is shown at (x, y) where the picture is moved.
   std::array<int, 2> source(const Move& move, int x, int y) const;
   double stale_cost(int side) const { return stale_.cost(side); }
   /// Makes the tiles' boxes, which lists of lights are made from. Not while others ask.
@@ -125,10 +132,11 @@ class PictureCase {
   std::array<bool, kPlanes> wrong_{};
 };
 
-/// Whether a pixel that is as it should be says much: dull ones are black, or nothing is drawn there.
+/// How densely pixels are sampled. A dull one says little where it is right: it is black, or nothing is drawn there.
 enum class PixelUse : uint8_t { usual, dull, left_out };
 
-/// The strata of a stage's pixels, each sampled: violations, second neighbours, others, and of these the dull ones.
+/// A sample of a stage's pixels, the same one every time. It has at most most[i] pixels of stratum i: violations,
+/// stores of another legal neighbour (store_2), other pixels, and other pixels that are dull.
 std::vector<SampledPixel> sampled_pixels(const StageVerdict& stage, const std::array<size_t, 4>& most,
                                          const std::vector<PixelUse>& uses);
 

@@ -24,9 +24,9 @@ enum class Search : uint8_t {
   one_of,          ///< the best of `starts`
   smooth,          ///< from the best of `starts` by least squares
   missing_light,   ///< the light without which most pixels are as given
-  doubled_light,   ///< the same of one that is drawn twice
-  count,           ///< of lights, by sums of the first so many
-  count_at_pixel,  ///< of lights that reach a pixel, the same
+  doubled_light,   ///< the light that, drawn twice, makes most pixels as given
+  count,           ///< how many lights are drawn, by the sums of the first ones
+  count_at_pixel,  ///< how many of the lights that reach a pixel are drawn there, likewise
   one_light,       ///< a light and what is changed of it, by least squares
   vector           ///< three numbers of all lights, by least squares
 };
@@ -40,13 +40,13 @@ struct PictureFault {
   std::span<const double> starts{};
   void (*move)(Move&, double) = nullptr;
   double doubt = 0;  ///< what naming it costs beyond its parameter: the more it can explain by chance
-  double reach = 0;  ///< steps from the value before its store that it may be off: of a dither
-  int tile = 0;      ///< pixels a side of tiles whose light lists are those of other tiles; parameter: which
+  double reach = 0;  ///< steps that a value may be off before its store: a dither's
+  int tile = 0;      ///< side in pixels of tiles lit by a neighbour's light list; the parameter says which
   std::string (*says)(double) = nullptr;  ///< the parameter in words; null: the number
-  int stale = 0;                          ///< pixels a side of tiles, a few of which hold something else
+  int stale = 0;                          ///< side in pixels of tiles, a few of which hold something else
   /// Of Search::one_light: changes the light by the vector; `start` is the vector that changes nothing.
   void (*one_light)(Light&, const std::array<double, 3>& vector) = nullptr;
-  bool (*of_light)(const Light&) = nullptr;                               ///< whether it can be of that light
+  bool (*of_light)(const Light&) = nullptr;                               ///< whether the light can have the fault
   double start = 0;                                                       ///< of each component
   void (*by_vector)(LightPass&, const std::array<double, 3>&) = nullptr;  ///< of Search::vector
   int numbers = 3;                                                        ///< components that the fault has

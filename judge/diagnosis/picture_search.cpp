@@ -51,8 +51,9 @@ double parameter_cost(Search search) {
   }
 }
 
-/// Whether what a fault changes is in a light program too, and not a term of a light model. Sums before finish() are
-/// not followed light by light.
+/// Whether a fault can be supposed where a light program draws: it changes no term of the light model. Where the
+/// program defines finish(), a fault of single lights cannot, since sums before finish() are not followed light by
+/// light.
 bool holds_for_programs(const PictureFault& fault, const LightPass& pass) {
   constexpr Search kByLight[] = {Search::missing_light, Search::doubled_light, Search::count, Search::count_at_pixel,
                                  Search::one_light};
@@ -81,7 +82,8 @@ class PictureSearch {
   }
 
   double changed() const { return changed_; }
-  /// Without findings that no pixel shows.
+  /// The one fault, or the two together, that explain the picture best, and rivals of a single one. Leaves out findings
+  /// that no sampled pixel proves.
   std::vector<Finding> look() const;
   std::vector<Finding> findings(std::span<const NamedFault> faults) const;
 
@@ -108,7 +110,7 @@ class PictureSearch {
   PictureCase& picture_;
   std::vector<double> off_few_, off_;
   double changed_ = 0, changed_few_ = 0, same_ = 0;
-  double cost_ = 0;  ///< where nothing is wrong
+  double cost_ = 0;  ///< of the prediction without a fault
 };
 
 std::vector<double> PictureSearch::off(const std::vector<SampledPixel>& pixels) const {
@@ -137,8 +139,9 @@ PictureCandidate PictureSearch::judged(std::vector<NamedFault> faults, const Pic
   return c;
 }
 
-/// Every fault beside those that are supposed, by a first look, the best first.
-std::vector<PictureCandidate> PictureSearch::beside(std::span<const NamedFault> faults) const {
+/// Each fault that is not among `faults`, supposed together with them, with the parameters that are likely; judged by
+/// the few pixels, the cheapest first.
+std::vector<Candidate> PictureSearch::beside(std::span<const NamedFault> faults) const {
   const std::vector<const PictureFault*> rows = all_faults();
   PictureSupposition base = supposed(faults);
   if (base.known == nullptr) base.known = std::make_shared<KnownPixels>();
@@ -166,8 +169,8 @@ std::vector<PictureCandidate> PictureSearch::beside(std::span<const NamedFault> 
   return candidates;
 }
 
-/// The parameters of two faults again, each beside the other.
-void PictureSearch::refine(PictureCandidate& candidate) const {
+/// Estimates each fault's parameter again, with the candidate's other faults supposed, and keeps what costs less.
+void PictureSearch::refine(Candidate& candidate) const {
   for (size_t turn = 0; turn < candidate.faults.size(); ++turn) {
     NamedFault& fault = candidate.faults[turn];
     if (fault.fault->search != Search::smooth) continue;
@@ -184,8 +187,9 @@ void PictureSearch::refine(PictureCandidate& candidate) const {
   }
 }
 
-/// The pixel that is farthest off where nothing is wrong, of those that the faults explain.
-///   too_few: faults that do not explain the pixel; empty: any will do
+/// The pixel that shows the faults best: of those that they explain, the one farthest off without a fault. Its plane is
+/// empty where there is no such pixel.
+///   too_few: pixels that these faults explain do not count; empty: all count
 Proof PictureSearch::proof(std::span<const NamedFault> faults, std::span<const NamedFault> too_few) const {
   const PictureSupposition right = picture_.right(), all = supposed(faults), few = supposed(too_few);
   Proof proof;
@@ -209,8 +213,8 @@ Proof PictureSearch::proof(std::span<const NamedFault> faults, std::span<const N
   return proof;
 }
 
-/// Of the pixels that are not as they should be, how many as the faults have them are far off, those too that were
-/// right.
+/// How many pixels are far off under the faults, also ones that were right without, as a share of the pixels that are
+/// wrong without. 0 where they are so few that it may be by chance.
 double PictureSearch::left(std::span<const NamedFault> faults) const {
   const std::vector<double> now = picture_.steps_off(supposed(faults), picture_.sample());
   double weight = 0;
@@ -226,7 +230,7 @@ double PictureSearch::left(std::span<const NamedFault> faults) const {
   return by_chance ? 0 : weight / changed_;
 }
 
-/// The fault with those that come before it.
+/// The finding about faults[which], judged together with the faults before it.
 Finding PictureSearch::finding(std::span<const NamedFault> faults, size_t which) const {
   const NamedFault& fault = faults[which];
   const auto up_to_it = faults.first(which + 1), before = faults.first(which);
@@ -250,9 +254,10 @@ std::vector<Finding> PictureSearch::findings(std::span<const NamedFault> faults)
   return findings;
 }
 
-/// Whether half of what it explains may be chance: where values are off by a code, any factor near 1 is right for many.
-/// Two explain more by chance than one.
-bool explains_by_chance(const PictureCandidate& c, double cost_of_right) {
+/// Whether half of what a candidate explains may be chance: where values are off by a code, any factor near 1 is right
+/// for many of them. Two faults explain more by chance than one.
+///   cost_of_right: what the prediction without a fault costs
+bool explains_by_chance(const Candidate& c, double cost_of_right) {
   const auto near_one = [](const NamedFault& f) {
     return f.fault->search == Search::smooth && std::fabs(f.parameter.number - 1) < kNearOne;
   };
@@ -260,11 +265,11 @@ bool explains_by_chance(const PictureCandidate& c, double cost_of_right) {
          c.found.cost > (c.faults.size() == 1 ? kLeftByFew : kLeftByTwo) * cost_of_right;
 }
 
-/// Of single faults those that may be named, ranked. Dithering explains what is off by a code: it comes after every
-/// fault that predicts values.
-std::vector<PictureCandidate> PictureSearch::named(std::vector<PictureCandidate> singles) const {
-  std::erase_if(singles, [&](const PictureCandidate& c) { return !explains(c) || explains_by_chance(c, cost_); });
-  std::stable_sort(singles.begin(), singles.end(), [](const PictureCandidate& a, const PictureCandidate& b) {
+/// Those single faults that explain enough and cost about as little as the best, the best first. A dither explains
+/// whatever is off by a code, so it comes after every fault that predicts values.
+std::vector<Candidate> PictureSearch::named(std::vector<Candidate> singles) const {
+  std::erase_if(singles, [&](const Candidate& c) { return !explains(c) || explains_by_chance(c, cost_); });
+  std::stable_sort(singles.begin(), singles.end(), [](const Candidate& a, const Candidate& b) {
     const bool dither_a = a.faults[0].fault->reach > 0, dither_b = b.faults[0].fault->reach > 0;
     return dither_a != dither_b ? dither_b : a.cost < b.cost;
   });
@@ -274,8 +279,9 @@ std::vector<PictureCandidate> PictureSearch::named(std::vector<PictureCandidate>
   return singles;
 }
 
-/// Whether any pixel of the sample tells which of two it is.
-bool PictureSearch::told_apart(const PictureCandidate& a, const PictureCandidate& b) const {
+/// Whether two candidates predict different pixels anywhere in the sample; true where one supposes stale tiles, of
+/// which it predicts nothing.
+bool PictureSearch::told_apart(const Candidate& a, const Candidate& b) const {
   const PictureSupposition one = supposed(a.faults), other = supposed(b.faults);
   if (one.stale > 0 || other.stale > 0) return true;
   std::atomic<bool> differs = false;
@@ -286,8 +292,9 @@ bool PictureSearch::told_apart(const PictureCandidate& a, const PictureCandidate
   return differs;
 }
 
-/// The first with those that no pixel tells from it, one by each name, and then the others.
-std::vector<Finding> PictureSearch::ranked(std::vector<PictureCandidate> singles) const {
+/// Findings about candidates that are ranked already: the first; those that no pixel tells from the first, marked as
+/// tied, one for each fault; and then the others.
+std::vector<Finding> PictureSearch::ranked(std::vector<Candidate> singles) const {
   std::vector<Finding> first, others;
   std::vector<const PictureFault*> said;
   for (const PictureCandidate& c : singles) {

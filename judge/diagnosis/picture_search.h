@@ -3,15 +3,16 @@
 
 namespace trueshade::oracle {
 
-/// Findings about the picture, the likeliest first, as diagnose() has them.
-///   only: faults with their parameters that are supposed, all together; empty: look for the likeliest
+/// A fault with its parameter.
 struct NamedFault {
   const PictureFault* fault = nullptr;
   FaultParameter parameter;
 };
-/// How many pixels are not as they should be, estimated.
+/// How many pixels of the image are not as a right renderer makes them, estimated by the sample.
 double changed_pixels(const PictureCase& picture);
 
+/// Findings about the picture, the likeliest first, as diagnose() has them.
+///   only: faults that are supposed, all together; empty: look for the likeliest
 std::vector<Finding> picture_findings(PictureCase& picture, std::span<const NamedFault> only);
 
 /// `light-range=1.01`, `light-moved=3:0.5,0,0`; a fault without a parameter by its name alone.

@@ -16,7 +16,7 @@ bool is_left_out(const StageVerdict& stage, int x, int y) {
   return stage.classes[size_t(y) * size_t(stage.width) + size_t(x)] == PixelClass::left_out;
 }
 
-/// Whether the pixel is not as it should be.
+/// Whether a pixel is a violation, or stored as another legal neighbour.
 bool is_odd(const StageVerdict& stage, int x, int y) {
   const PixelClass c = stage.classes[size_t(y) * size_t(stage.width) + size_t(x)];
   return c == PixelClass::violation || c == PixelClass::store_2;
@@ -42,8 +42,8 @@ bool ends_sharply(const StageVerdict& stage, const std::vector<uint8_t>& tiles, 
 
 }  // namespace
 
-/// Tiles of which two fifths are not as they should be, where hardly a tenth of the others is. A few: a tenth of all,
-/// or three of a small picture, but never more than a quarter of it.
+/// A tile stands out if two fifths of its pixels or more are odd. None does if a tenth of all other pixels is odd too,
+/// or if too many tiles stand out: more than a tenth of all (or three, of a small picture), or more than a quarter.
 StaleTiles::StaleTiles(const StageVerdict& stage) : width_(stage.width) {
   for (const int side : {8, 16, 32, 64}) {
     const int across = (stage.width + side - 1) / side, down = (stage.height + side - 1) / side;

@@ -68,7 +68,7 @@ int PlaneCase::planes() const {
 
 namespace {
 
-/// False: there is nothing that the fault changes.
+/// Makes the fault's change of the scene, the pipeline or the sampling. False where it changes nothing.
 bool redrawn(Scene& scene, Pipeline& pipeline, Profile& profile, const NamedPlaneFault& f) {
   if (f.fault->sample != nullptr) return f.fault->sample(scene, profile.sampling, f.parameter.number);
   return f.fault->edit != nullptr ? f.fault->edit(scene, pipeline, f.parameter)
@@ -91,7 +91,8 @@ std::optional<PlaneSupposition> PlaneCase::with(const PlaneSupposition& base, co
   return s;
 }
 
-/// What a plane shows at a pixel: from where its content came, encoded.
+/// What a plane should show at a pixel under the supposed faults: the surface of the pixel that was moved here, encoded
+/// as they encode it.
 ExpectedPixel PlaneCase::changed(const PlaneSupposition& supposed, Plane plane, int x, int y, bool after) const {
   PlaneMove move;
   for (const NamedPlaneFault& f : supposed.faults)
@@ -130,7 +131,7 @@ void PlaneCase::encode(const PlaneFault& fault, double parameter, ExpectedPixel&
   }
 }
 
-/// As the plane's format has it.
+/// A number in the plane's unit: a code, not rounded, where the format is unorm; otherwise as it is.
 double PlaneCase::stored(Plane plane, double value, int channel) const {
   const PlaneView& view = views_[size_t(plane)];
   if (!view.unorm()) return value;
@@ -163,7 +164,7 @@ double PlaneCase::channel_off(Plane plane, const ExpectedPixel& p, double reach,
 
 namespace {
 
-/// Of each number of two pixels what `mix` makes.
+/// Sets each number of `out` to mix(number of a, number of b).
 template <class Mix>
 void mix_numbers(PlaneValues& out, const PlaneValues& a, const PlaneValues& b, const Mix& mix) {
   out.depth = mix(a.depth, b.depth);
@@ -179,7 +180,7 @@ void mix_numbers(PlaneValues& out, const PlaneValues& a, const PlaneValues& b, c
 
 }  // namespace
 
-/// Anything between the surfaces at a pixel and its neighbours; nothing where there is but one.
+/// The bounds of any average of the surfaces at a pixel and its eight neighbours; nothing where all show one triangle.
 std::optional<ExpectedPixel> PlaneCase::average_at(const ExpectedPlanes& planes, int x, int y) const {
   const auto least = [](double u, double v) { return std::min(u, v); };
   const auto most = [](double u, double v) { return std::max(u, v); };
@@ -236,7 +237,8 @@ std::array<double, kPlanes> PlaneCase::steps_off(const PlaneSupposition& suppose
   return average ? steps_off(*average, x, y) : off;
 }
 
-/// As numbers, of the planes that were captured.
+/// The numbers that the captured planes hold at a pixel, decoded from codes. Planes that were not captured keep the
+/// defaults of PlaneValues; `object` is -1 then.
 PlaneValues PlaneCase::given(int x, int y) const {
   PlaneValues v;
   const auto number = [&](Plane plane, int channel) {

@@ -24,7 +24,7 @@ class PlaneCase {
             const StageVerdict& stage);
 
   PlaneSupposition right() const { return {{}, nullptr, right_}; }
-  /// With one more fault; nothing where it changes nothing here.
+  /// `base` with one more fault; nothing where this fault changes nothing that is drawn.
   std::optional<PlaneSupposition> with(const PlaneSupposition& base, const NamedPlaneFault& fault) const;
   const std::vector<SampledPixel>& sample() const { return sample_; }
   const std::vector<SampledPixel>& few() const { return few_; }
@@ -33,7 +33,7 @@ class PlaneCase {
   std::array<double, kPlanes> steps_off(const PlaneSupposition& supposed, int x, int y) const;
   const PlaneView& view(Plane plane) const { return views_[size_t(plane)]; }
   int planes() const;
-  /// What would be stored at the pixel: codes, or floats.
+  /// The code or float that the plane should hold at the pixel under the supposed faults; codes are rounded.
   double predicted(const PlaneSupposition& supposed, Plane plane, int x, int y, int channel) const;
   ExpectedPixel expected(int x, int y) const { return right_->at(x, y); }
   const Scene& scene() const { return scene_; }

@@ -13,7 +13,7 @@ struct EvidentPixel {
   bool wrong = false;  ///< any plane is not as expected
   PlaneValues given;   ///< of planes that were captured; `object` as id.object has it, or -1
   PlaneValues expected;
-  uint32_t triangle = 0;  ///< that is expected, of the object's mesh
+  uint32_t triangle = 0;  ///< the expected one, in the object's mesh
 };
 
 struct PlaneEvidence {
@@ -27,10 +27,11 @@ struct PlaneEvidence {
   bool has_plane(Plane plane) const { return has[size_t(plane)]; }
 };
 
-/// Objects that have wrong pixels, by what is expected there or what was given, at most two, the likeliest first.
+/// The objects, at most two, that three tenths of the wrong pixels or more should show or do show; the likeliest first.
 std::vector<uint32_t> suspected_objects(const PlaneEvidence& evidence);
 
-/// Numbers of a fault that its suspects() names, fitted to the pixels.
+/// Parameters of a fault of Search::suspected: those that fault.suspects() names, fitted to the pixels as fault.fit
+/// says. Empty where nothing is suspected, and for a camera's fault where most pixels are right.
 std::vector<FaultParameter> suspected_parameters(const PlaneEvidence& evidence, const PlaneFault& fault);
 
 }  // namespace trueshade::oracle

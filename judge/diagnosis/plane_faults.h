@@ -51,26 +51,26 @@ struct PlaneFault {
     suspected      ///< what `suspects` names, and the numbers by least squares
   };
   std::string_view name, text;  ///< text: `%s` stands for the parameter
-  Plane plane = Plane::all;     ///< that it changes; of `redraw` all of them
+  Plane plane = Plane::all;     ///< the one that the fault changes; `all` where it draws otherwise
   void (*change)(const PlaneContext&, PlaneValues&, double) = nullptr;
-  bool (*redraw)(Scene&, Pipeline&, double) = nullptr;  ///< false: there is nothing that it changes
+  bool (*redraw)(Scene&, Pipeline&, double) = nullptr;  ///< false: it changes nothing here
   void (*move)(PlaneMove&, double) = nullptr;
   Search search = Search::none;
   std::span<const double> starts{};
   double doubt = 0;
-  double reach = 0;  ///< steps of the plane, or of the values that it is rounded to, that it may be off
+  double reach = 0;  ///< steps of the plane, or of what it rounds to, by which a prediction may be off
   std::string (*says)(double) = nullptr;
   // Of Search::suspected:
   bool (*edit)(Scene&, Pipeline&, const FaultParameter&) = nullptr;         ///< as redraw, by all numbers
-  std::vector<FaultParameter> (*suspects)(const PlaneEvidence&) = nullptr;  ///< which, and from which numbers to start
+  std::vector<FaultParameter> (*suspects)(const PlaneEvidence&) = nullptr;  ///< parameters to start from
   ParameterForm numbers{};
   enum class Of : uint8_t { object, material } of = Of::object;  ///< what FaultParameter::number counts
   Fit fit = Fit::none;
   bool averages = false;   ///< pixels that are off may be averages of two surfaces beside one another
-  bool estimated = false;  ///< what `suspects` names are numbers of the pixels
+  bool estimated = false;  ///< `suspects` estimates its numbers from the pixels
   double start = 0;        ///< of each number: what changes nothing
   bool (*sample)(const Scene&, Sampling&, double) = nullptr;  ///< as redraw, by how textures are read
-  double change_of = 0;  ///< a small change of a number; below 0, that part of the scene's extent
+  double change_of = 0;  ///< a small change of a number; below 0: times the scene's extent
 
   ParameterForm form() const {
     if (search == Search::suspected) return numbers;

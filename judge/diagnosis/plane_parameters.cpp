@@ -8,7 +8,8 @@
 
 namespace trueshade::oracle {
 
-/// Numbers that are fitted are as good as their pixels: what is left of a difference by less than its hundredth is.
+/// Numbers that are fitted are only as good as their pixels: what they leave of a difference counts as 0 below a
+/// hundredth of it.
 PlaneSteps plane_steps(const PlaneCase& planes, const PlaneSupposition& supposed,
                        const std::vector<SampledPixel>& pixels, const PlaneSteps* before) {
   constexpr double kOfDifference = 0.01;
@@ -25,7 +26,8 @@ PlaneSteps plane_steps(const PlaneCase& planes, const PlaneSupposition& supposed
 
 namespace {
 
-/// The best factor: that of the starts, and then golden sections about it.
+/// The factor that costs least at the few pixels: the best of the fault's starts, then golden sections about it,
+/// rounded where that costs hardly more.
 double best_factor(const PlaneCase& planes, const PlaneSupposition& base, const PlaneFault& fault) {
   constexpr double kRatio = 0.6180339887498949;
   const auto cost_at = [&](double parameter) {  // what is far off counts more than what is less far off

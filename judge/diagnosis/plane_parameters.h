@@ -11,7 +11,8 @@ inline bool agrees(const std::array<double, kPlanes>& off, Plane plane = Plane::
   return std::all_of(off.begin(), off.end(), [](double o) { return o < kSameSteps; });
 }
 
-///   before: without the fault, or null
+/// Steps that each plane is off at each of `pixels` under the supposed faults.
+///   before: the same without the fault that is tried; null: not known
 PlaneSteps plane_steps(const PlaneCase& planes, const PlaneSupposition& supposed,
                        const std::vector<SampledPixel>& pixels, const PlaneSteps* before = nullptr);
 

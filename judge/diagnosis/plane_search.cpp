@@ -47,7 +47,8 @@ class PlaneSearch {
   bool told_apart(const PlaneCandidate& a, const PlaneCandidate& b) const;
 
  private:
-  /// How many pixels are not as they should be, and shares of these and of the others.
+  /// How many pixels are wrong without the faults (`changed`), the share of these that the faults explain and that stay
+  /// far off or astray, and the share of the right pixels that they contradict.
   struct Share {
     double changed = 0, explained = 0, contradicted = 0, left = 0, astray = 0;
   };
@@ -92,8 +93,8 @@ PlaneCandidate PlaneSearch::judged(PlaneSupposition supposed, bool all) const {
   return c;
 }
 
-/// Only planes that are wrong can have a fault of their own; drawing otherwise changes most of them, and samples that
-/// are averaged change all planes of numbers.
+/// Whether the fault can be what is wrong. A fault of one plane needs this plane to be wrong; drawing otherwise changes
+/// most planes, so one wrong plane will do; averaging samples needs two of depth, position and normal, if captured.
 bool PlaneSearch::bears_on(const PlaneFault& fault) const {
   if (fault.averages) {
     int captured = 0, off = 0;
@@ -187,14 +188,15 @@ PlaneSupposition PlaneSearch::supposed(std::span<const NamedPlaneFault> faults) 
   return s;
 }
 
-/// Whether more is left of a difference than rounding and what is legal of a plane make.
+/// Whether a plane (`all`: any plane) is off by more steps than rounding and legal differences make, and by more than a
+/// tenth of what it was off without the faults.
 bool is_far_off(const std::array<double, kPlanes>& now, const std::array<double, kPlanes>& before, Plane plane) {
   for (size_t k = 0; k < kPlanes; ++k)
     if ((plane == Plane::all || plane == Plane(k)) && now[k] > kFarOff && now[k] > kNearer * before[k]) return true;
   return false;
 }
 
-/// Whether the normal is another direction: no rounding, and no length, leaves so much.
+/// Whether the captured normal differs from the predicted one by more than a rounding or a wrong length can make.
 bool PlaneSearch::is_astray(const PlaneSupposition& supposed, const SampledPixel& pixel) const {
   constexpr double kOtherDirection = 0.125;  // of unit length
   const PlaneView& normals = planes_.view(Plane::normal);
@@ -207,8 +209,8 @@ bool PlaneSearch::is_astray(const PlaneSupposition& supposed, const SampledPixel
   return false;
 }
 
-/// Of the pixels that are not as they should be, what is left of the difference to what is likeliest: where much is
-/// legal two faults may both explain a pixel, and one of them be nearer. In thousandths.
+/// How much of the difference to the nominal values is left at the wrong pixels, in thousandths, and how many outline
+/// pixels of a fitted object disagree. Where much is legal, two faults may both explain a pixel, one of them nearer.
 double PlaneSearch::left_of(const PlaneSupposition& supposed) const {
   double sum = 0;
   for (size_t i = 0; i < off_.size(); ++i) {
@@ -232,8 +234,8 @@ double PlaneSearch::left_of(const PlaneSupposition& supposed) const {
   return missed + std::nearbyint(1000 * sum / changed_);
 }
 
-/// Those that cost about as little as the first by what they leave.
-void PlaneSearch::rank_equals(std::vector<PlaneCandidate>& singles) const {
+/// Orders the candidates that cost as little as the first, within 1e-4, by left_of().
+void PlaneSearch::rank_equals(std::vector<Candidate>& singles) const {
   constexpr double kSameCost = 1e-4;
   size_t equals = 1;
   while (equals < singles.size() && singles[equals].cost < singles[0].cost + kSameCost) ++equals;
@@ -242,9 +244,9 @@ void PlaneSearch::rank_equals(std::vector<PlaneCandidate>& singles) const {
                    [](const PlaneCandidate& a, const PlaneCandidate& b) { return a.left < b.left; });
 }
 
-/// Whether pixels or the count of numbers tell which of two it is.
-bool PlaneSearch::told_apart(const PlaneCandidate& a, const PlaneCandidate& b) const {
-  const auto numbers = [](const PlaneCandidate& c) {
+/// Whether two candidates differ in how many numbers they have, in what they leave, or in which sampled pixels agree.
+bool PlaneSearch::told_apart(const Candidate& a, const Candidate& b) const {
+  const auto numbers = [](const Candidate& c) {
     int sum = 0;
     for (const NamedPlaneFault& f : c.supposed.faults) sum += f.numbers();
     return sum;
@@ -256,7 +258,7 @@ bool PlaneSearch::told_apart(const PlaneCandidate& a, const PlaneCandidate& b) c
   return false;
 }
 
-/// Of the pixels of one plane, or of all.
+/// Measures the supposed faults by one plane, or by all planes together.
 PlaneSearch::Share PlaneSearch::share(const PlaneSupposition& supposed, Plane plane) const {
   const PlaneSteps now = off(supposed, planes_.sample(), &off_);
   const bool edges = std::any_of(supposed.faults.begin(), supposed.faults.end(), [](const NamedPlaneFault& f) {
@@ -280,8 +282,9 @@ PlaneSearch::Share PlaneSearch::share(const PlaneSupposition& supposed, Plane pl
   return out;
 }
 
-/// The pixel of the plane that is farthest off where nothing is wrong, of those that are explained.
-///   too_few: what does not explain the pixel; null: any will do
+/// The pixel of the plane that shows the faults best: of those that they explain, the one farthest off without a fault.
+/// Its plane is empty where there is no such pixel.
+///   too_few: pixels that these faults explain do not count; null: all count
 Proof PlaneSearch::proof(const PlaneSupposition& supposed, Plane plane, const PlaneSupposition* too_few) const {
   Proof proof;
   double farthest = 0;
@@ -308,7 +311,8 @@ Proof PlaneSearch::proof(const PlaneSupposition& supposed, Plane plane, const Pl
   return proof;
 }
 
-/// The fault with those that come before it. Alone, it answers for its own plane.
+/// The finding about faults[which], together with the faults before it measured by all planes; the first fault is
+/// measured by its own plane.
 Finding PlaneSearch::finding(std::span<const NamedPlaneFault> faults, size_t which) const {
   const NamedPlaneFault& fault = faults[which];
   const Plane own = fault.fault->plane;

@@ -119,7 +119,8 @@ void Sketch::draw_triangle(const std::array<const Vertex*, 3>& v, const Faces& f
     }
 }
 
-/// `b` sums to 1 / w.
+/// Draws one fragment of a triangle, if the depth test lets it.
+///   b: the barycentrics over w; they sum to 1 / w
 void Sketch::cover(size_t pixel, const std::array<double, 3>& b, const std::array<const Vertex*, 3>& v, double turn,
                    const GeometryState& state, double object) {
   const double ndc = b[0] * v[0]->clip[2] + b[1] * v[1]->clip[2] + b[2] * v[2]->clip[2];

@@ -13,7 +13,8 @@ class Sketch {
   Sketch(std::span<const SampledPixel> pixels, const Pipeline& pipeline);
 
   void clear(const Pipeline& pipeline);
-  /// In order of submission, by the pipeline's depth test. Object, depth, position and normal of its pixels.
+  /// Draws one instance of `mesh` over what is drawn already, by the pipeline's depth test and culling. Sets object,
+  /// depth, position and normal of the pixels where it is seen. Call it in the order of submission.
   void draw(const Scene& scene, const Pipeline& pipeline, const Mesh& mesh, uint32_t instance);
   std::span<const PlaneValues> pixels() const { return values_; }
 

@@ -18,7 +18,8 @@ struct ParameterRange {
   bool whole = false;
 };
 
-/// Of the faults whose name ends so; a fault that has several values to try, and none of these rows, takes no others.
+/// What a fault whose name ends with `ending` takes as its parameter. A fault that has values to try, and no such row,
+/// takes no others.
 struct NamedRange {
   std::string_view ending;
   ParameterRange range;

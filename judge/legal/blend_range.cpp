@@ -123,7 +123,8 @@ class ValueBlend {
     return term.dst == BlendFactor::zero ? a : plus(a, b);
   }
 
-  /// Equal factors may be taken out of the sum; llvmpipe does so where both groups have equal ones.
+  /// The blend of channel k, which is `parts` by the equation as written. Equal factors may be taken out of the sum,
+  /// f s + f d = f (s + d), as llvmpipe does where both groups have equal ones: then this form, or both forms.
   Span whole(const BlendTerm& term, size_t k, const Span& parts) const {
     if (term.src != term.dst || !(takes_out_ || open_) || layout_.number_class == NumberClass::unorm) return parts;
     const Span &s = operands_[0][k], &d = operands_[1][k];
@@ -164,7 +165,8 @@ class ValueBlend {
     return clamped({linear_of_srgb(stored.low) - off, linear_of_srgb(stored.high) + off});
   }
 
-  /// Where no more precision than the target's is promised: the neighbours of the ends too.
+  /// x widened to the values of the format next to its ends, for rules that promise no more than the target's
+  /// precision.
   Span neighbours(const Span& x, int k) const {
     if (k == 3 && !has_alpha(layout_)) return x;
     if (layout_.number_class == NumberClass::unorm && !layout_.srgb_channel(k)) return x;  // CodeBlend's
@@ -275,14 +277,14 @@ class CodeBlend {
   std::array<double, 4> chance_{};   ///< of another code of the source
 };
 
-/// Any code of `sum`, where a source is another one by `chance`.
+/// Any code of `sum`, with `chance` as the probability that it is not the nominal one.
 LegalTexel texel_of_codes(const Span& sum, double nominal, double chance) {
   LegalTexel t{std::clamp(nominal, sum.low, sum.high), sum.low, sum.high, 0, 0};
   if (t.low < t.high) t.second_chance = chance, t.second_side = t.high > t.nominal ? 1 : -1;
   return t;
 }
 
-/// Codes added, whatever the rule: what is stored is exact, so the sum is any legal code of the source's more.
+/// The sum of a stored code and a source's code, which no rule rounds: any legal code of the source may be added.
 LegalTexel added_code(const LegalTexel& stored, const LegalTexel& source, double largest) {
   const auto sum = [largest](double d, double s) { return std::min(d + s, largest); };
   const LegalTexel t{sum(stored.nominal, source.nominal), sum(stored.low, source.low), sum(stored.high, source.high), 0,

@@ -11,7 +11,7 @@ namespace trueshade::oracle {
 /// Fixed-point formats in codes, others in values; channels a format lacks are not read.
 using Texel = std::array<LegalTexel, 4>;
 
-/// A texel that is known.
+/// A channel that holds exactly `stored`.
 LegalTexel known_texel(double stored);
 
 /// One fragment blended, or stored where blending is off; channels masked off stay as they are.

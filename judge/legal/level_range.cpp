@@ -34,7 +34,7 @@ const SrgbTable& srgb_table() {
   return table;
 }
 
-/// A code of an sRGB texel as it is read.
+/// What is read of an sRGB texel of a code: decoded, texels.codes off, or not decoded where `texels.encoded`.
 long double read_code(const TexelSource& texels, const SrgbTable& table, int code) {
   if (texels.encoded) return code / 255.0L;
   const auto& decoded = texels.rules.mesa_decode ? table.mesa : table.value;
@@ -48,12 +48,12 @@ void include(TexelHull& hull, const TexelValue& texel) {
     hull[c].low = std::min(hull[c].low, double(texel[c])), hull[c].high = std::max(hull[c].high, double(texel[c]));
 }
 
-/// Texels by codes of 8 bits.
+/// Whether texels are stored in codes of 8 bits.
 bool has_codes(const Texture& texture) {
   return texture.format == TextureFormat::srgb8_a8 || texture.format == TextureFormat::rgba8;
 }
 
-/// A channel of a texel by its code.
+/// What is read of one channel of a texel whose code is `code`.
 long double read_channel(const TexelSource& texels, const SrgbTable& table, size_t channel, int code) {
   const bool is_srgb = texels.texture.format == TextureFormat::srgb8_a8 && channel < 3;
   return is_srgb ? read_code(texels, table, code) : table.unit[size_t(code)];

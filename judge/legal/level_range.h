@@ -25,8 +25,8 @@ Real srgb_decoded(Real s) {
   return std::pow((std::min(s, Real(1)) + Real(0.055L)) / Real(1.055L), Real(2.4L));
 }
 
-/// The same as Mesa 22.3 decodes it (gallium/auxiliary/gallivm/lp_bld_format_srgb.c): a line, and a polynomial from
-/// code 16 on.
+/// srgb_decoded() as Mesa 22.3 computes it (gallium/auxiliary/gallivm/lp_bld_format_srgb.c): a line, and a polynomial
+/// from code 16 on.
 long double mesa_decoded(long double s);
 
 /// The levels of a texture, read as a sampler may: sRGB texels as decoded, some codes off, or not decoded yet.

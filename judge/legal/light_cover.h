@@ -12,7 +12,7 @@ namespace trueshade::oracle {
 
 struct FragmentCount {
   uint8_t least = 0, most = 0;
-  uint8_t nominal = 0;     ///< where vertices are in the middle of their boxes
+  uint8_t nominal = 0;     ///< the number if vertices are in the middle of their boxes
   bool cut = false;        ///< the doubt comes from near, far, w or the sides of the view
   float chance_other = 0;  ///< predicted probability that the number is not the nominal one
   uint32_t triangle = 0;   ///< of the mesh: one in doubt
@@ -35,7 +35,8 @@ class LightOutline {
                const Light& light, const LightMesh& mesh);
   ~LightOutline();
 
-  /// Counts of row y, y up; `out` has a count for each pixel of the image.
+  /// Sets `out`, one element for each pixel of row y (y up), to how many fragments the mesh has there; 0 outside the
+  /// viewport.
   void count_row(int y, std::span<FragmentCount> out) const;
 
  private:

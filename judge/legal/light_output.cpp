@@ -6,7 +6,8 @@
 
 namespace trueshade::oracle {
 
-/// Outside forward strategies a light's fragments end where its geometry does.
+/// The pipeline by which a light's term is bounded. Outside forward strategies it has no extents: there a light's
+/// fragments end where its geometry does, which is judged apart.
 static Pipeline with_extents_of_draws(Pipeline pipeline) {
   if (!is_forward(pipeline.strategy)) pipeline.light_volumes = {};
   return pipeline;

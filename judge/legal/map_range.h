@@ -6,11 +6,11 @@
 
 namespace trueshade::oracle {
 
-/// Where a material's map is read. Of a slot that is used.
+/// Where a material's map is read at a sample (x, y) of a piece. `slot` must be used.
 TextureSample map_sample(const Projector& projector, const TextureSlot& slot, const Piece& piece,
                          const SurfacePoint& point, const TriangleValues& values, double x, double y);
 
-/// Texel of a material's map; nothing where the slot is empty.
+/// What a material's map may give at a sample: R, G, B, A; nothing where the slot is empty.
 std::optional<std::array<Range, 4>> map_texel(const Projector& projector, const TextureSlot& slot, const Piece& piece,
                                               const SurfacePoint& point, const TriangleValues& values, double x,
                                               double y);

@@ -74,7 +74,8 @@ double float_below(double x) {
 }
 double float_above(double x) { return -float_below(-x); }
 
-/// Chance that an output spread evenly over the range falls beyond the thresholds around the nominal value.
+/// Sets second_chance: the probability that an output, spread evenly over the range, lies beyond `below` or `above`,
+/// the thresholds around the nominal value. Sets on which side too.
 void set_chance(LegalTexel& t, const Range& r, double below, double above) {
   const double width = r.high - r.low;
   if (!(width > 0)) return;
@@ -96,7 +97,7 @@ void set_reach(LegalTexel& t, double low, double high, double reach, double larg
   }
 }
 
-/// The same of codes: a rule that reaches beyond half a code adds an error of its own.
+/// set_chance() of codes. A rule whose stores reach beyond half a code widens the range by its own error.
 void set_code_chance(LegalTexel& t, const Range& codes, const Profile& profile) {
   const double own = profile.likely.code_reach - 0.5;
   set_chance(t, {codes.value, codes.low - own, codes.high + own}, t.nominal - 0.5, t.nominal + 0.5);
@@ -264,7 +265,7 @@ LegalTexel narrowed(const LegalTexel& wide, int channel) {
 
 namespace {
 
-/// What is no number may be any.
+/// A range without NaN: an end that is NaN becomes infinite.
 Range numbers_of(const Range& r) {
   return {std::isnan(r.value) ? 0 : r.value, std::isnan(r.low) ? -HUGE_VAL : r.low,
           std::isnan(r.high) ? HUGE_VAL : r.high};

@@ -181,7 +181,7 @@ Range SurfaceValues::ambient_share() const {
   return {share(r.value), share(r.low) - v, share(r.high) + v};
 }
 
-/// Times a number of the material's: one more product.
+/// A range times `tint`, a number of the material; rounded once more.
 Range SurfaceValues::tinted(const Range& r, double tint) const {
   if (projector_.profile().exact_planes) {
     const auto times = [&](double v) { return double(float(float(v) * float(tint))); };
@@ -197,7 +197,7 @@ Range SurfaceValues::tinted(const Range& r, double tint) const {
 
 namespace {
 
-/// docs/arithmetic.md section 2.
+/// v made unit length as docs/arithmetic.md section 2 has it, in floats; 0 where v is 0.
 std::array<float, 3> unit_in_floats(const std::array<double, 3>& v) {
   std::array<float, 3> n = {float(v[0]), float(v[1]), float(v[2])};
   const float l2 = (n[0] * n[0] + n[1] * n[1]) + n[2] * n[2], inverse = l2 > 0 ? 1.0f / std::sqrt(l2) : 0.0f;

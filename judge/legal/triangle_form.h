@@ -20,7 +20,8 @@ class TriangleForm {
   const PieceShape& shape(size_t piece) const { return forms_[piece].shape; }
   const TriangleValues& values() const { return values_; }
 
-  /// A ValueIndex plus a component, at the vertices of a piece, to be interpolated so. Not for flat ones.
+  /// An attribute at the vertices of a piece, ready for this interpolation, which is not flat.
+  ///   index: a ValueIndex plus a component
   const VertexAttribute& attribute(size_t piece, size_t index, Interpolation interpolation) const;
 
   /// Of the uv set that the material's normal map reads; of vertices' tangents the side alone.

@@ -69,7 +69,7 @@ bool is_explained(const ProbeFrame& frame, const Profile& profile, TellsBy by) {
   return none(lighting_violations(scene, pipeline, profile, frame.capture, {}, nullptr));
 }
 
-/// A field of numbers, the tightest first; beside it what sets a number.
+/// A knob for a field that is a number. `values` has the tightest value first.
 ProbeKnob numbers(const char* field, TellsBy by, double Profile::*member, std::initializer_list<double> values,
                   bool least_is_real = false) {
   ProbeKnob knob{field, by, false, {}, least_is_real};
@@ -86,7 +86,8 @@ ProbeKnob numbers(const char* field, TellsBy by, Part Profile::*part, double Par
   return knob;
 }
 
-/// A field whose values exclude each other.
+/// A knob for a field whose values exclude each other: what a profile's file calls a value, and a function that sets
+/// it.
 template <class Setter>
 ProbeKnob choice(const char* field, TellsBy by, std::initializer_list<std::pair<const char*, Setter>> values) {
   ProbeKnob knob{field, by, true, {}};
@@ -110,7 +111,7 @@ ProbeKnob grid() {
 
 constexpr double kUlp = 0x1p-23;
 
-/// In the order in which they are told: each is asked with all before it as they were told.
+/// All knobs in the order in which they are measured: each with the values found for those before it.
 std::vector<ProbeKnob> probe_knobs() {
   using enum TellsBy;
   constexpr auto kArithmetic = &Profile::arithmetic;
@@ -167,7 +168,7 @@ std::vector<ProbeKnob> probe_knobs() {
   };
 }
 
-/// A field's values asked one after the other, everything else as it is in `known`.
+/// Measures one knob after the other, with the rest of the profile as it is known so far.
 class Probe {
  public:
   Probe(std::vector<const ProbeFrame*> frames, Profile known) : frames_(std::move(frames)), known_(std::move(known)) {}
@@ -199,7 +200,8 @@ class Probe {
   }
 
  private:
-  /// The name of a frame that speaks against it, or nothing. Frames that spoke before are asked first.
+  /// The name of a frame that the profile with this value does not explain; empty where it explains all. Begins with
+  /// the frame that spoke against a value last.
   std::string frame_against(const ProbeKnob& knob, const ProbeValue& value) {
     Profile guess = known_;
     value.set(guess);

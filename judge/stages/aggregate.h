@@ -37,7 +37,7 @@ double chance_of_at_least(double observed, double mean);
 ///                      stores or of surfaces, against the share that they have elsewhere
 std::vector<AggregateTest> aggregate_tests(const StageVerdict& verdict);
 
-/// The least likely of them.
+/// The test with the smallest chance.
 const AggregateTest& least_likely(const std::vector<AggregateTest>& tests);
 
 }  // namespace trueshade::oracle

@@ -31,7 +31,8 @@ Texel BlendingJudge::kept_in_floats(const DrawnFragment& f, const BlendState& bl
   return t;
 }
 
-/// Notes conversions that may give either of two codes.
+/// Notes those of a fragment's conversions to codes that may give either of two codes.
+///   added: the fragment is blended over the target; otherwise it replaces what was noted
 void BlendingJudge::see_thresholds(const PixelState& p, const DrawnFragment& f, bool added) {
   const auto pixel = size_t(&p - pixels_.data()), width = size_t(pipeline_.width);
   const int x = int(pixel % width);
@@ -45,7 +46,7 @@ void BlendingJudge::see_thresholds(const PixelState& p, const DrawnFragment& f, 
   }
 }
 
-/// What the last image says of them: how many gave the upper code.
+/// Adds the pixel's conversions in doubt to the match, with how many of them gave the upper code by the last image.
 void BlendingJudge::tell_conversions(const PixelState& p, int x, int y, const PlaneView& view, Match& m) {
   constexpr size_t kMost = 32;  // of one sum
   for (int k = 0; k < 3; ++k) {
@@ -65,7 +66,7 @@ void BlendingJudge::tell_conversions(const PixelState& p, int x, int y, const Pl
   }
 }
 
-/// What the likely rule leaves after a fragment's nominal draws.
+/// Carries p.likely, what the likely rule leaves, through a fragment's nominal draws.
 void BlendingJudge::carry_likely(PixelState& p, const DrawnFragment& f, const BlendState& blend) {
   const bool in_floats = profile_.likely.sums_in_floats;
   if (in_floats && color_.unorm() && !blend.enabled)
@@ -81,7 +82,8 @@ void BlendingJudge::carry_likely(PixelState& p, const DrawnFragment& f, const Bl
   }
 }
 
-/// The choice between what the likely rule leaves after all draws and what was stored. Sums of equal sources are one.
+/// Sets m.choices of the last image: for each channel, whether it was stored as the likely rule leaves it after all
+/// draws. Sums of equal sources are one choice. Adds nothing where the draws themselves are in doubt.
 void BlendingJudge::choose_last(const PixelState& p, int x, int y, const PlaneView& view, Match& m) {
   m.choices.clear();
   if (!view.quantised() || p.split || p.is_clamped || (layers_ && layers_->any(x, y))) return;
@@ -100,7 +102,7 @@ void BlendingJudge::choose_last(const PixelState& p, int x, int y, const PlaneVi
   if (sees_thresholds_) tell_conversions(p, x, y, view, m);
 }
 
-/// What the pixel may hold after the fragments, from what it may hold before them.
+/// Carries what the pixel may hold through fragments, for draws that were not seen: p.nominal, p.all and p.likely.
 void BlendingJudge::carry(PixelState& p, std::span<const DrawnFragment> fragments, const BlendState& blend) {
   const Format format = color_.image->format;
   for (const DrawnFragment& f : fragments) {

@@ -241,7 +241,7 @@ FragmentCount BlendingJudge::visible_count(const ShadedSurface& surface, size_t 
   return {uint8_t(in.surely), uint8_t(in.perhaps), uint8_t(in.nominally)};
 }
 
-/// light.count counts a light once, or as often as it is drawn.
+/// Adds what a light may add to light.count: once, or as often as it is drawn.
 void BlendingJudge::count_lights(int x, int y, size_t i, size_t j, const FragmentCount& count, const RowWork& work) {
   PixelState& p = pixels_[at(x, y)];
   const auto add = [&](const LightOutputs::Lit& lit, int least, int most) {
@@ -341,7 +341,7 @@ void BlendingJudge::keep(int x, int y, PixelClass c, const Match& m, int light) 
                                       : "light " + std::to_string(light));
 }
 
-/// A light that draws nothing at the pixel.
+/// Judges a pixel at which light i of the batch draws nothing: a changed texel is a violation.
 void BlendingJudge::unchanged(int x, int y, size_t i) {
   const Image &old = before(i), &now = batch_[i];
   if (std::memcmp(now.texel(x, y), old.texel(x, y), size_t(color_.layout.bytes_per_texel())) == 0) return;

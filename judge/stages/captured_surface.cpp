@@ -147,7 +147,8 @@ ShadedSurface CapturedSurface::at(int x, int y) const {
   return s;
 }
 
-/// Gauss-Jordan with pivots, in long double: no matrix code of the renderer's.
+/// Sets world_from_clip_, by Gauss-Jordan with pivots in long double and no matrix code of the renderer's.
+/// Error(bad_input) where the camera's matrix has no inverse.
 void CapturedSurface::invert(const Scene& scene) {
   const Matrix4 m = projection_of(scene.camera, pipeline_.geometry, pipeline_.width, pipeline_.height);
   long double a[4][8] = {};
@@ -170,7 +171,8 @@ void CapturedSurface::invert(const Scene& scene) {
     for (size_t c = 0; c < 4; ++c) world_from_clip_[4 * c + r] = double(a[r][4 + c]);
 }
 
-/// docs/arithmetic.md section 7. Each product of a row passes the matrix element's rounding, its own and three sums.
+/// The world position that a shader rebuilds of a pixel's depth (docs/arithmetic.md section 7). Each product of a row
+/// passes five roundings: the matrix element's, its own and three sums'.
 Bounded3 CapturedSurface::position_from_depth(int x, int y) const {
   const Arithmetic& a = profile_.arithmetic;
   const double v = a.roundoff, near = double(pipeline_.geometry.depth_near), far = double(pipeline_.geometry.depth_far);

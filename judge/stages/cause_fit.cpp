@@ -122,14 +122,14 @@ class BoundedFit {
  private:
   enum class State : uint8_t { free, held, absent };
 
-  /// What a cause's growth would take off half the sum of squares.
+  /// The slope of half the sum of squares against cause j, negated: above 0, the sum falls where the cause grows.
   double gain(size_t j) const {
     double g = e_.right[j];
     for (size_t k = 0; k < x_.size(); ++k) g -= e_.products(j, k) * x_[k];
     return g;
   }
 
-  /// False where nothing is left to do.
+  /// One step: goes toward the solution of the free causes up to the first bound, or frees a cause. False at the end.
   bool go() {
     const std::vector<size_t> set = free();
     Vector right;
@@ -189,7 +189,7 @@ double pull_of(const Deviation& d, const Equations& e, const std::vector<size_t>
   return pull;
 }
 
-/// What the causes tell of a deviation.
+/// The deviation that the causes predict if their sizes are x.
 double told_of(const Deviation& d, const Equations& e, const Vector& x) {
   double told = 0;
   for (size_t j = 0; j < x.size(); ++j)

@@ -11,7 +11,7 @@ namespace trueshade::oracle {
 
 namespace {
 
-/// What is asked of a surface by Match's names, where nothing but its legality matters.
+/// A stand-in for Match, with its members, that finds out only whether a pixel is legal.
 struct Legality {
   bool legal = true;
   static constexpr double excess = HUGE_VAL;
@@ -42,7 +42,7 @@ Profile with_exact_filters(const Profile& profile) {
   return p;
 }
 
-/// A legal albedo under transparent surfaces.
+/// Adds the verdict on a legal albedo under transparent surfaces to a match.
 void take_layers(const LayeredVerdict& v, Match& m) {
   m.second = m.second || v.match.second, m.tex = m.tex || v.pixel_class == PixelClass::tex;
   m.worst_error = std::max(m.worst_error, v.match.worst_error);

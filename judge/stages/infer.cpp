@@ -39,7 +39,7 @@ void add_telling(const StageVerdict& v, int most, Bands& bands) {
     if (errors[i].first > 0) bands[errors[i].second] = 1;
 }
 
-/// The first quarter of all bands, the second, and the rest.
+/// All bands in three portions: every fourth band, those behind these, and the rest.
 std::vector<Bands> portions_of(size_t bands) {
   std::vector<Bands> portions(3, Bands(bands, 0));
   for (size_t i = 0; i < bands; ++i) portions[std::min<size_t>(i % 4, 2)][i] = 1;
@@ -58,9 +58,9 @@ bool is_same(const Guess& a, const Guess& b) {
   return a.bears == b.bears && allows_all_of(a.profile, b.profile) && allows_all_of(b.profile, a.profile);
 }
 
-/// What is known of guesses beyond one inquiry.
+/// What inquiries on earlier samples have found out about guesses.
 struct Knowledge {
-  /// A guess as far as it was judged.
+  /// A guess, the bands in which it was judged, and what was found there.
   struct Judged {
     Guess guess;
     Bands bands;
@@ -70,7 +70,7 @@ struct Knowledge {
   std::vector<Guess> confirmed;  ///< on the whole image
 };
 
-/// One inquiry on one sample.
+/// Infers a profile from the rows of one sample.
 class Inquiry {
  public:
   Inquiry(const Scene& scene, const Pipeline& pipeline, const Capture& capture, const JudgedRows& rows,
@@ -102,8 +102,8 @@ class Inquiry {
     return result_;
   }
 
-  /// Bands of the image in which a guess fails that holds on the sample; empty where all hold. Of the guesses those
-  /// that were tried last allow the least.
+  /// Judges the guesses that hold on the sample on the whole image, the last first, as these allow the least. Returns
+  /// some bands in which one of them fails; empty where all hold.
   Bands refuted() {
     bool is_first = true;
     for (auto guess = held_.rbegin(); guess != held_.rend() && !rows_.all(); ++guess) {
@@ -134,7 +134,8 @@ class Inquiry {
     return failing > 0 ? bands : Bands{};
   }
 
-  /// Counts the pixels of all stages, also where the first one fails: only so can guesses be ranked.
+  /// Judges one guess on the sample, adds it to the `tried` ones, and returns how many pixels speak against it. Counts
+  /// those of all stages, also where the first one fails, so that guesses can be ranked.
   uint64_t against(const Profile& profile, Bears bears, const char* knob, const std::string& value) {
     const bool with_lights = bears == Bears::on_all_stages && lit_;
     const Knowledge::Judged& judged = judged_on_sample({profile, bears}, with_lights);
@@ -144,7 +145,8 @@ class Inquiry {
     return violations;
   }
 
-  /// Of a guess that was judged on an earlier sample only the bands are judged that have joined it.
+  /// A guess judged on all bands of the sample. Bands in which it was judged for an earlier sample are not judged
+  /// again.
   const Knowledge::Judged& judged_on_sample(const Guess& guess, bool with_lights) {
     auto known = std::find_if(known_.judged.begin(), known_.judged.end(),
                               [&](const Knowledge::Judged& j) { return is_same(j.guess, guess); });

@@ -72,7 +72,8 @@ class LightingJudge {
     const ShadedSurface& at(int x, int y) const { return surfaces[size_t((y - y0) * (x1 - x0) + x - x0)]; }
   };
 
-  /// Of a tile, rows y to end.
+  /// Whether all pixels of the tile at column x, rows y to `end`, are EXACT in the verdict `settled`; false without
+  /// one.
   bool is_settled(int x, int y, int end) const {
     for (int row = y; row < end && settled_ != nullptr; ++row) {
       const auto first = settled_->classes.begin() + int64_t(pixel_at(x, row));
@@ -88,7 +89,7 @@ class LightingJudge {
     std::array<Range, 4> color;
     bool undefined = false;
   };
-  /// What is stored of a sum: the branches that were taken have changed it by so much.
+  /// What a draw may output for the lights' sum `lit` once `change`, that of the other branches taken, is added to it.
   Output output(const LitRange& lit, const std::array<double, 3>& change, const ShadedSurface& surface,
                 const Tile& tile) const;
   bool fits(const LitRange& lit, const Output& output, int x, int y, Match& m) const;
@@ -118,7 +119,8 @@ bool LightingJudge::count_is(const LitRange& lit, int x, int y, Match& m) const 
   return m.legal;
 }
 
-/// From what the lights may have left: nominally, and over all branches.
+/// Judges a pixel under transparent surfaces, from what the lights may have left there: nominally, and over all
+/// branches.
 void LightingJudge::judge_layered(int x, int y, const Tile& tile, RowTally& row) const {
   const bool covered = surface_.covered(x, y);
   Match counted;

@@ -18,8 +18,8 @@ struct Cut {
   int width, height;  ///< pixels
 };
 
-/// What the choices of a region came to. `open`: of those that are expected, what is likelier to go the other way than
-/// not, as depths of a wide range are: how much of that a region has says nothing of another.
+/// The choices of a region: how many went the other way, and how many were expected to. `open`: the expected ones whose
+/// chance is above a half, as of depths of a wide range; how many of these a region has says nothing of another region.
 struct Sums {
   double other = 0, expected = 0, open = 0;
 };

@@ -12,8 +12,9 @@ namespace trueshade::oracle {
 
 namespace {
 
-/// Of stores at one threshold those that have to be left out so that some threshold fits the others: a store above it
-/// needs an upper bound that reaches it, one below it a lower bound that does not exceed it.
+/// How many stores at one threshold must be left out, at least, so that one place of the threshold fits all others. A
+/// store above the threshold needs an upper bound of at least this place, one below it a lower bound of at most this
+/// place. Sorts both lists.
 double least_left_out(std::vector<float>& highs_above, std::vector<float>& lows_below) {
   std::sort(highs_above.begin(), highs_above.end());
   std::sort(lows_below.begin(), lows_below.end());
@@ -54,7 +55,7 @@ class Telling {
     for (size_t i = 0; i < stores_.size(); i += stores_[i].sum_of) untold_.push_back(i);
   }
 
-  /// Stores that no threshold explains, and sums that none do.
+  /// How many stores and sums no places of the thresholds explain.
   double crossed() {
     constexpr int kMostRounds = 8;
     for (int round = 0; round < kMostRounds; ++round) {
@@ -110,7 +111,8 @@ Telling::Went Telling::went(const NearThreshold& s, int least_earlier, int most_
   return *all;
 }
 
-/// Whether it is known how each conversion of a sum went: then it is added to what is told.
+/// Adds the conversions of a sum to told_ and returns true, if it is known which way each of them went. Counts a sum
+/// that the known thresholds contradict.
 bool Telling::tell(size_t first) {
   const std::span<const NearThreshold> sum = stores_.subspan(first, stores_[first].sum_of);
   std::array<Went, 256> ways;

@@ -50,8 +50,9 @@ class TieFinder {
   }
 
  private:
-  /// Of two faces that meet at a silhouette both are at the edge's depth: the normal tells which one is seen. Of two
-  /// that an offset takes to the end of the depth range, the position does.
+  /// The possible surface that the capture shows at a pixel, by identifiers, and by difference() where several have
+  /// them; null for none. Of two faces that meet at a silhouette both are at the edge's depth: the normal tells which
+  /// one is seen. Of two that an offset takes to the end of the depth range, the position does.
   const PossibleSurface* visible(std::span<const PossibleSurface> all, int x, int y_top) const {
     const double object = object_ ? object_.stored(x, y_top, 0) : 0;
     const double primitive = primitive_ ? primitive_.stored(x, y_top, 0) : 0;
@@ -88,7 +89,7 @@ class TieFinder {
     return off;
   }
 
-  /// As the buffer may hold it.
+  /// The depth of a possible surface as the depth buffer may hold it.
   Range depth_of(const PossibleSurface& c, int x, int y) const {
     const DepthFunc func = pipeline_.geometry.depth_func;
     if (!orders_depths(func)) return SurfaceValues(projector_, c, x + 0.5, y + 0.5).depth();
@@ -96,7 +97,7 @@ class TieFinder {
     return far_first ? Range{-c.middle, -c.high, -c.low} : Range{c.middle, c.low, c.high};
   }
 
-  /// Equal clip coordinates give equal depths (GL 4.6 core, appendix A, rule 5).
+  /// Whether two surfaces have equal clip coordinates, and so equal depths (GL 4.6 core, appendix A, rule 5).
   bool same_vertices(const PossibleSurface& a, const PossibleSurface& b) const {
     return a.piece == b.piece &&
            projector_.clip_of(a.instance, a.triangle) == projector_.clip_of(b.instance, b.triangle);

@@ -18,7 +18,7 @@ constexpr size_t kMostDoubts = 6;
 bool ordered_down(DepthFunc f) { return f == DepthFunc::less || f == DepthFunc::lequal; }
 bool ordered_up(DepthFunc f) { return f == DepthFunc::greater || f == DepthFunc::gequal; }
 
-/// Surfaces as a forward strategy has them.
+/// The pipeline with a forward strategy, for surfaces that lights read without planes between.
 Pipeline forward_of(const Pipeline& pipeline) {
   Pipeline p = pipeline;
   p.strategy = Strategy::forward_loop;
@@ -38,7 +38,7 @@ Format blended_format(const Pipeline& pipeline, const Capture& capture) {
 
 }  // namespace
 
-/// Depths that the opaque surfaces may have left, as keys.
+/// The depths that the opaque surfaces may have left at a pixel, as keys.
 struct TransparentLayers::Front {
   double low, high;
 };
@@ -90,7 +90,8 @@ bool TransparentLayers::any(int x, int y) const {
   return !fragments_.at(size_t(pipeline_.height - 1 - y) * size_t(pipeline_.width) + size_t(x)).empty();
 }
 
-/// False where the fragment surely fails.
+/// Tests a fragment against the opaque surfaces. False where it surely fails; where it may pass or fail, makes the
+/// layer uncertain and returns true.
 bool TransparentLayers::test_depth(const SurfaceValues& values, const Front& front, TransparentLayer& layer) const {
   const DepthFunc func = pipeline_.geometry.depth_func;
   if (func == DepthFunc::always) return true;
@@ -110,7 +111,8 @@ bool TransparentLayers::test_depth(const SurfaceValues& values, const Front& fro
   return true;
 }
 
-/// All that the lights may make of the fragment, whichever way comparisons go, is one set.
+/// Sets the colors that a transparent fragment may be drawn with: `nominal`, and `other`, the set of all that the
+/// lights may make of it where comparisons may go either way. In mode into_albedo, the colors are albedos.
 void TransparentLayers::shade(const SurfaceValues& values, const PossibleSurface& drawn, int x, int y,
                               TransparentLayer& layer) const {
   const Interpolation how = pipeline_.gbuffer.albedo.interpolation;
@@ -175,7 +177,9 @@ TransparentPixel TransparentLayers::at(int x, int y_top, uint32_t first, uint32_
   return out;
 }
 
-/// `drawn`: bits of the layers in doubt, in order.
+/// Appends the texel that one way of drawing the layers over `from` leaves; nothing where closed patches rule it out.
+///   drawn: bit i: the i-th uncertain layer is drawn
+///   other: comparisons that may go either way go the other way
 void TransparentLayers::chain(const TransparentPixel& pixel, const Texel& from, unsigned drawn, bool other,
                               std::vector<LayeredTexel>& out) const {
   LayeredTexel way;
