@@ -13,12 +13,6 @@ namespace {
 
 constexpr size_t kMostSteps = 60;
 
-std::string joined(const std::vector<AccountValue>& values) {
-  std::string out;
-  for (const AccountValue& value : values) out += (out.empty() ? "" : ", ") + value_text(value);
-  return out;
-}
-
 /// The roundings of a step's components in words: `exact`, or two digits each, which tell how near to half a unit of
 /// the last place the rounding was; `-` for NaN.
 std::string rounding_text(const std::vector<double>& rounding) {

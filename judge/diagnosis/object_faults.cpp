@@ -34,7 +34,7 @@ bool move_object(Scene& s, Pipeline&, const P& p) {
 }
 
 /// v turned about the direction of `degrees`, by its length in degrees (Rodrigues).
-Triple3 turned(const Triple3& v, const Triple3& degrees) {
+Triple3 turned_about(const Triple3& v, const Triple3& degrees) {
   const double angle = std::sqrt(inner(degrees, degrees)) * std::acos(-1.0) / 180;
   const Triple3 axis = unit(degrees), across = cross(axis, v),
                 along = times(axis, inner(axis, v) * (1 - std::cos(angle)));

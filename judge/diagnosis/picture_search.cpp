@@ -141,7 +141,7 @@ PictureCandidate PictureSearch::judged(std::vector<NamedFault> faults, const Pic
 
 /// Each fault that is not among `faults`, supposed together with them, with the parameters that are likely; judged by
 /// the few pixels, the cheapest first.
-std::vector<Candidate> PictureSearch::beside(std::span<const NamedFault> faults) const {
+std::vector<PictureCandidate> PictureSearch::beside(std::span<const NamedFault> faults) const {
   const std::vector<const PictureFault*> rows = all_faults();
   PictureSupposition base = supposed(faults);
   if (base.known == nullptr) base.known = std::make_shared<KnownPixels>();
@@ -170,7 +170,7 @@ std::vector<Candidate> PictureSearch::beside(std::span<const NamedFault> faults)
 }
 
 /// Estimates each fault's parameter again, with the candidate's other faults supposed, and keeps what costs less.
-void PictureSearch::refine(Candidate& candidate) const {
+void PictureSearch::refine(PictureCandidate& candidate) const {
   for (size_t turn = 0; turn < candidate.faults.size(); ++turn) {
     NamedFault& fault = candidate.faults[turn];
     if (fault.fault->search != Search::smooth) continue;
@@ -257,7 +257,7 @@ std::vector<Finding> PictureSearch::findings(std::span<const NamedFault> faults)
 /// Whether half of what a candidate explains may be chance: where values are off by a code, any factor near 1 is right
 /// for many of them. Two faults explain more by chance than one.
 ///   cost_of_right: what the prediction without a fault costs
-bool explains_by_chance(const Candidate& c, double cost_of_right) {
+bool explains_by_chance(const PictureCandidate& c, double cost_of_right) {
   const auto near_one = [](const NamedFault& f) {
     return f.fault->search == Search::smooth && std::fabs(f.parameter.number - 1) < kNearOne;
   };
@@ -267,9 +267,9 @@ bool explains_by_chance(const Candidate& c, double cost_of_right) {
 
 /// Those single faults that explain enough and cost about as little as the best, the best first. A dither explains
 /// whatever is off by a code, so it comes after every fault that predicts values.
-std::vector<Candidate> PictureSearch::named(std::vector<Candidate> singles) const {
-  std::erase_if(singles, [&](const Candidate& c) { return !explains(c) || explains_by_chance(c, cost_); });
-  std::stable_sort(singles.begin(), singles.end(), [](const Candidate& a, const Candidate& b) {
+std::vector<PictureCandidate> PictureSearch::named(std::vector<PictureCandidate> singles) const {
+  std::erase_if(singles, [&](const PictureCandidate& c) { return !explains(c) || explains_by_chance(c, cost_); });
+  std::stable_sort(singles.begin(), singles.end(), [](const PictureCandidate& a, const PictureCandidate& b) {
     const bool dither_a = a.faults[0].fault->reach > 0, dither_b = b.faults[0].fault->reach > 0;
     return dither_a != dither_b ? dither_b : a.cost < b.cost;
   });
@@ -281,7 +281,7 @@ std::vector<Candidate> PictureSearch::named(std::vector<Candidate> singles) cons
 
 /// Whether two candidates predict different pixels anywhere in the sample; true where one supposes stale tiles, of
 /// which it predicts nothing.
-bool PictureSearch::told_apart(const Candidate& a, const Candidate& b) const {
+bool PictureSearch::told_apart(const PictureCandidate& a, const PictureCandidate& b) const {
   const PictureSupposition one = supposed(a.faults), other = supposed(b.faults);
   if (one.stale > 0 || other.stale > 0) return true;
   std::atomic<bool> differs = false;
@@ -294,7 +294,7 @@ bool PictureSearch::told_apart(const Candidate& a, const Candidate& b) const {
 
 /// Findings about candidates that are ranked already: the first; those that no pixel tells from the first, marked as
 /// tied, one for each fault; and then the others.
-std::vector<Finding> PictureSearch::ranked(std::vector<Candidate> singles) const {
+std::vector<Finding> PictureSearch::ranked(std::vector<PictureCandidate> singles) const {
   std::vector<Finding> first, others;
   std::vector<const PictureFault*> said;
   for (const PictureCandidate& c : singles) {

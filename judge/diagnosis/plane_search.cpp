@@ -235,7 +235,7 @@ double PlaneSearch::left_of(const PlaneSupposition& supposed) const {
 }
 
 /// Orders the candidates that cost as little as the first, within 1e-4, by left_of().
-void PlaneSearch::rank_equals(std::vector<Candidate>& singles) const {
+void PlaneSearch::rank_equals(std::vector<PlaneCandidate>& singles) const {
   constexpr double kSameCost = 1e-4;
   size_t equals = 1;
   while (equals < singles.size() && singles[equals].cost < singles[0].cost + kSameCost) ++equals;
@@ -245,8 +245,8 @@ void PlaneSearch::rank_equals(std::vector<Candidate>& singles) const {
 }
 
 /// Whether two candidates differ in how many numbers they have, in what they leave, or in which sampled pixels agree.
-bool PlaneSearch::told_apart(const Candidate& a, const Candidate& b) const {
-  const auto numbers = [](const Candidate& c) {
+bool PlaneSearch::told_apart(const PlaneCandidate& a, const PlaneCandidate& b) const {
+  const auto numbers = [](const PlaneCandidate& c) {
     int sum = 0;
     for (const NamedPlaneFault& f : c.supposed.faults) sum += f.numbers();
     return sum;
