@@ -88,7 +88,7 @@ struct Score {
   std::string simd;
   double value;
 };
-/// The geometric mean of frames a second over standard_rows(), by the least time of each; a SIMD target each, best first.
+/// The geometric mean of frames a second over standard_rows(), by the least time of each: a score a SIMD target, best first.
 std::vector<Score> scores(const BenchResult& bench);
 std::string scores_text(const BenchResult& bench);
 std::string scores_json(const BenchResult& bench);

@@ -128,7 +128,8 @@ int compare_two_pictures(const CompareOptions& options) {
   return passes(pictures) || pictures.is_accepted ? 0 : 1;
 }
 
-/// An error that ends the command, in the report for CI services: they would show that of an earlier run.
+/// Writes the error that ends the command into the JUnit report. Otherwise CI services would show the report of an
+/// earlier run.
 void report_failure(const CompareOptions& options, const Error& error) {
   PictureRow row;
   row.name = options.test;

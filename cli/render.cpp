@@ -105,6 +105,8 @@ SceneToRender::SceneToRender(const RenderOptions& given, const Execution& execut
                               : "There is one sample a pixel, because the picture is large (--samples 4 smooths its "
                                 "edges)");
   if (std::string note = vain_note(given, pipeline); !note.empty()) scene.notes.push_back(std::move(note));
+  if (scene.seen_from_inside && !options.camera.any() && !options.turntable)
+    scene.notes.push_back("The model is a room, so it is seen from inside (--orbit 25,20 sees it from outside)");
   check_cube_map(options, pipeline);
   validate_region(pipeline, options.execution.region);
   if (options.resume && (!is_streamed(options, pipeline) || options.outputs.empty() || options.numbered()))

@@ -8,7 +8,6 @@
 #include "cli/scene_facts.h"
 #include "core/printable_text.h"
 #include "scenes/files/content/faults.h"
-#include "scenes/scene_defaults.h"
 #include "scenes/trig.h"
 
 namespace trueshade {
@@ -73,7 +72,7 @@ std::string named(const std::string& name, const std::string& about) {
 std::string own_camera_text(const Scene& scene) {
   const Camera& own = scene.camera;
   if (scene.camera_of_ours)
-    return is_seen_from_inside(scene) ? "made to stand inside a room, because the file has none"
+    return scene.seen_from_inside ? "made to stand inside a room, because the file has none"
                                       : "made to see all, because the file has none";
   if (own.clip_from_world) return "a matrix";
   return "perspective, " + degrees_text(double(own.fov_x_rad.value_or(own.fov_y_rad))) +

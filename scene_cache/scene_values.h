@@ -131,10 +131,10 @@ void each_member(auto& visit, Same<SceneExtension> auto& value) {
 /// All but the meshes, which are stored first, one by one, and the digests, which the file's maker stores.
 void each_member(auto& visit, Same<Scene> auto& value) {
   auto& [spec, meshes, materials, textures, instances, lights, camera, clear, pipeline_text, timeline, time,
-         photometric, lights_of_ours, is_model, camera_of_ours, ground_of_ours, cameras, animations, extensions,
+         photometric, lights_of_ours, is_model, camera_of_ours, seen_from_inside, ground_of_ours, cameras, animations, extensions,
          digests, notes, passed_over] = value;
   each_of(visit, spec, materials, textures, instances, lights, camera, clear, pipeline_text, timeline, time,
-          photometric, lights_of_ours, is_model, camera_of_ours, ground_of_ours, cameras, animations, extensions, notes,
+          photometric, lights_of_ours, is_model, camera_of_ours, seen_from_inside, ground_of_ours, cameras, animations, extensions, notes,
           passed_over);
 }
 

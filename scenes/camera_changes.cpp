@@ -50,10 +50,12 @@ glm::dvec2 slope_of(const Camera& lens, double aspect) {
   return lens.fov_x_rad ? glm::dvec2(slope, slope / aspect) : glm::dvec2(slope * aspect, slope);
 }
 
-/// The lens of the scene's camera, or where that is a matrix of a camera of ours, with the angle of the changes.
+/// The lens of the scene's camera, with the angle of the changes; where that camera is a matrix or stands in a room, the
+/// lens of a camera of ours outside.
 Camera lens_of(const Scene& scene, const CameraChanges& changes) {
-  Camera lens = scene.camera.clip_from_world ? Camera() : scene.camera;
-  if (scene.camera.clip_from_world) lens.fov_y_rad = 0.5f;
+  const bool has_none = scene.camera.clip_from_world || scene.seen_from_inside;
+  Camera lens = has_none ? Camera() : scene.camera;
+  if (has_none) lens.fov_y_rad = 0.5f;
   if (changes.fov_y_deg) lens.fov_y_rad = float(radians(*changes.fov_y_deg)), lens.fov_x_rad.reset();
   return lens;
 }
@@ -109,9 +111,8 @@ ChangedCamera::ChangedCamera(const Scene& scene, const CameraChanges& changes, d
     if (scene.lights_of_ours && scene.lights.size() >= kLightsOfOurs)
       lamps_ = lamps_for(scene, up_, sine_and_cosine(changes.orbit->azimuth_deg));
     changes_.target.reset();  // it is there
-  } else if (scene.camera_of_ours && (aspect != 1.0 || changes.fov_y_deg)) {
-    std::optional<float> fov;
-    if (changes.fov_y_deg) fov = float(radians(*changes.fov_y_deg));
+  } else if (scene.camera_of_ours && !scene.seen_from_inside && (aspect != 1.0 || changes.fov_y_deg)) {
+    const float fov = changes.fov_y_deg ? float(radians(*changes.fov_y_deg)) : scene.camera.fov_y_rad;
     whole_ = camera_seeing(scene, aspect, fov);
   } else if (is_matrix && changes.eye && changes.target) {
     whole_ = lens_of(scene, changes);

@@ -113,7 +113,8 @@ struct Scene {
   bool photometric = false;
   bool lights_of_ours = false;  ///< the last kLightsOfOurs lights are ours (scenes/lights_of_ours.h)
   bool is_model = false;        ///< a model file of others: what it lacks may be chosen so that it looks well
-  bool camera_of_ours = false;  ///< the file has no camera: the one of camera_seeing() stands in, for square pictures
+  bool camera_of_ours = false;  ///< the file has no camera: that of add_camera_of_ours() stands in, for square pictures
+  bool seen_from_inside = false;  ///< that camera stands in the model, which is a room
   bool ground_of_ours = false;  ///< the last instance is the ground of add_ground()
   std::vector<SceneCamera> cameras{};        ///< of a glTF file; empty where its cameras are not the scene's
   std::vector<SceneAnimation> animations{};  ///< of a glTF file

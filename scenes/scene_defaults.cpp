@@ -144,13 +144,16 @@ SeenAreas areas_from(const Scene& scene, const glm::dvec3& toward) {
 
 }  // namespace
 
-bool looks_at_faces(const Scene& scene) { return scene.is_model && scene.triangle_count() <= 2'000'000; }
+bool looks_at_faces(const Scene& scene) {
+  constexpr uint64_t kMostTriangles = 2'000'000;  // so many are looked at in a moment
+  return scene.photometric && scene.is_model && scene.triangle_count() <= kMostTriangles;
+}
 
 glm::dvec2 turn_of_side(const Scene& scene) {
   constexpr glm::dvec2 kTurns[] = {{0.0, 1.0}, {0.0, -1.0}, {1.0, 0.0}, {-1.0, 0.0}};
   constexpr double kLeastDrawn = 0.1;
   const FpScope fp;
-  if (!scene.photometric || !looks_at_faces(scene)) return kTurns[0];
+  if (!looks_at_faces(scene)) return kTurns[0];
   const SeenAreas front = areas_from(scene, kFromTheFront);
   if (!(front.drawn < kLeastDrawn * front.all)) return kTurns[0];
   return *std::max_element(std::begin(kTurns), std::end(kTurns), [&](const glm::dvec2& a, const glm::dvec2& b) {
@@ -193,19 +196,14 @@ Framing framing_of(const Scene& scene, const SeenFrom& view) {
   return framing;
 }
 
-Camera camera_seeing(const Scene& scene, double aspect, std::optional<float> fov_y_rad) {
-  constexpr float kFovOutside = 0.5f, kFovInside = 1.1f;
+Camera camera_seeing(const Scene& scene, double aspect, float fov_y_rad) {
   const FpScope fp;
+  Camera camera;
+  camera.fov_y_rad = fov_y_rad;
   SeenFrom view;
   view.toward = unit(turned(kFromTheFront, turn_of_side(scene)));
-  std::optional<Camera> inside;
-  if (looks_at_faces(scene))
-    inside = camera_in_room(scene, bounds_without_ground(scene), view.toward, fov_y_rad.value_or(kFovInside));
-  if (inside) return *inside;
-  Camera camera;
-  camera.fov_y_rad = fov_y_rad.value_or(kFovOutside);
   view.right = unit(cross(glm::dvec3(0.0, 1.0, 0.0), view.toward)), view.up = cross(view.toward, view.right);
-  const double slope = tangent(0.5 * double(camera.fov_y_rad));
+  const double slope = tangent(0.5 * double(fov_y_rad));
   view.slope = {slope * aspect, slope};
   const Framing framing = framing_of(scene, view);
   camera.eye = glm::vec3(framing.target + view.toward * framing.distance);
@@ -217,17 +215,14 @@ Camera camera_seeing(const Scene& scene, double aspect, std::optional<float> fov
 }
 
 void add_camera_of_ours(Scene& scene) {
-  scene.camera = camera_seeing(scene);
+  const FpScope fp;
+  std::optional<Camera> inside;
+  if (scene.is_model)
+    inside = camera_in_room(scene, without_ground(scene), bounds_without_ground(scene),
+                            unit(turned(kFromTheFront, turn_of_side(scene))));
+  scene.camera = inside ? *inside : camera_seeing(scene);
   scene.camera_of_ours = true;
-  if (is_seen_from_inside(scene))
-    scene.notes.push_back("The model is a room, so it is seen from inside (--orbit 25,20 sees it from outside)");
-}
-
-bool is_seen_from_inside(const Scene& scene) {
-  if (!scene.camera_of_ours) return false;
-  const Bounds bounds = bounds_without_ground(scene);
-  const glm::dvec3 half = bounds.centre - bounds.least, off = glm::dvec3(scene.camera.eye) - bounds.centre;
-  return std::fabs(off.x) < half.x && std::fabs(off.y) < half.y && std::fabs(off.z) < half.z;
+  scene.seen_from_inside = inside.has_value();
 }
 
 }  // namespace trueshade

@@ -34,8 +34,8 @@ struct Framing {
 };
 Framing framing_of(const Scene& scene, const SeenFrom& view);
 
-/// Whether camera_seeing() looks at the triangles of a scene, and not at its vertices alone: at those of a model of at
-/// most 2,000,000, which takes a moment.
+/// Whether turn_of_side() and so camera_seeing() look at the triangles of a scene, and not at its vertices alone: at
+/// those of a glTF model of at most 2,000,000.
 bool looks_at_faces(const Scene& scene);
 
 /// How far the side that camera_seeing() looks from is turned from the front, +z, to the right: the sine and the cosine
@@ -44,14 +44,12 @@ bool looks_at_faces(const Scene& scene);
 glm::dvec2 turn_of_side(const Scene& scene);
 
 /// A camera above and to the right of the front, or of the side of turn_of_side(), that sees all that is drawn: it
-/// fills 85 % of the width or of the height of a picture of this aspect, width / height, and is in the middle. A model
-/// that is a room is seen from inside (scenes/room.h). `fov_y_rad`: full vertical angle; of ours 0.5, and 1.1 in a
-/// room.
-Camera camera_seeing(const Scene& scene, double aspect = 1.0, std::optional<float> fov_y_rad = std::nullopt);
+/// fills 85 % of the width or of the height of a picture of this aspect, width / height, and is in the middle.
+/// `fov_y_rad`: full vertical angle.
+Camera camera_seeing(const Scene& scene, double aspect = 1.0, float fov_y_rad = 0.5f);
 
-/// Gives a scene that has no camera the one of camera_seeing() for square pictures; a note tells of a room.
+/// Gives a scene without a camera one of ours: that of camera_seeing() for square pictures or, of a model that is a
+/// room, that of camera_in_room() (scenes/room.h).
 void add_camera_of_ours(Scene& scene);
-/// Whether the camera is ours and stands in a room.
-bool is_seen_from_inside(const Scene& scene);
 
 }  // namespace trueshade

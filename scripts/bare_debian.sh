@@ -62,8 +62,5 @@ open_bare_debian() {
   [[ -z $why ]] || die "no bare Debian ($1) can be made here: $why"
 }
 
-# copy_tree: this checkout, without what git ignores, into /root/trueshade there.
-copy_tree() {
-  mkdir -p "$root/root/trueshade"
-  git ls-files -z --cached --others --exclude-standard | tar --null --files-from=- -cf - | tar -C "$root/root/trueshade" -xf -
-}
+# copy_tree: this checkout into /root/trueshade there.
+copy_tree() { copy_checkout "$root/root/trueshade"; }

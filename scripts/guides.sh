@@ -1,16 +1,15 @@
 #!/bin/bash
-# scripts/guides.sh, which is ./check guides: what a reader of the guides meets. A copy of this tree, new in build/guides, is
-# built by the README's first command, ./run; then all commands that guides show, in blocks and in sentences, are run by the
-# command that ./run leaves, whose kernels are those of this machine and the scalar ones. CI runs the same commands by a build
-# of all kernels.
+# scripts/guides.sh, which is ./check guides: what a reader of the guides meets. A copy of this tree, new in build/guides,
+# is built by the README's first command, ./run; then all commands that guides show, in blocks and in sentences, are run
+# by the command that ./run leaves, whose kernels are those of this machine and the scalar ones. CI runs the same commands
+# by a build of all kernels.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source scripts/setup.sh
 install_packages tests  # the drivers and programs that guides name; ./run installs what it needs itself
 copy=build/guides
 rm -rf "$copy"
-mkdir -p "$copy"
-git ls-files -z --cached --others --exclude-standard | tar --null --files-from=- -cf - | tar -C "$copy" -xf -
+copy_checkout "$copy"
 SECONDS=0
 quietly "./run" "$copy/run"
 say "./run took $SECONDS s, its packages there"

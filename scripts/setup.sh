@@ -25,6 +25,12 @@ quietly() {
   rm -f "$log"
 }
 
+# copy_checkout FOLDER: this checkout, without what git ignores, into a folder.
+copy_checkout() {
+  mkdir -p "$1"
+  git ls-files -z --cached --others --exclude-standard | tar --ignore-failed-read --null --files-from=- -cf - | tar -C "$1" -xf -
+}
+
 # listed_packages picture|command|tests: the list's first part, the first two, or all of it.
 listed_packages() {
   local until='^$'  # matches no line that is kept

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scenes/builtin/pcg32.h"
+#include "scenes/camera_changes.h"
 #include "scenes/lights_of_ours.h"
 #include "scenes/scene_defaults.h"
 #include "tests/catch.hpp"
@@ -143,13 +144,18 @@ Scene model() {
 
 constexpr glm::vec3 kRoom(4, 1, 3);  // half of the walls' box
 
-/// Whether the eye that a scene gets is between the walls of a room, as its note says.
+/// Whether the eye that a scene gets is between the walls of a room, as the scene says.
 bool stands_in_room(Scene scene) {
   add_camera_of_ours(scene);
   const glm::vec3 eye = scene.camera.eye;
   const bool inside = std::fabs(eye.x) < kRoom.x && std::fabs(eye.y) < kRoom.y && std::fabs(eye.z) < kRoom.z;
-  CHECK(scene.notes.size() == (inside ? 1 : 0));
+  CHECK(scene.seen_from_inside == inside);
   return inside;
+}
+
+Camera camera_of(Scene scene) {
+  add_camera_of_ours(scene);
+  return scene.camera;
 }
 
 }  // namespace
@@ -160,15 +166,14 @@ TEST_CASE("A room is seen from inside, where its walls would hide what stands in
   CHECK_FALSE(stands_in_room(scene));  // it may be a box whose faces are turned
   add_box(scene, {-1, -0.6f, 0}, glm::vec3(0.4f), Fronts::outside);
   REQUIRE(stands_in_room(scene));
-  const Camera camera = camera_seeing(scene);
+  const Camera camera = camera_of(scene);
   CHECK(camera.near < 0.05f);
   CHECK(camera.far > 10.0f);
   CHECK(camera.fov_y_rad == 1.1f);
-  CHECK(camera_seeing(scene, 2.0, 0.7f).fov_y_rad == 0.7f);
   // A thing where the eye would stand: another place is found.
   add_box(scene, {3.4f, 0, 2.5f}, {0.5f, 0.9f, 0.4f}, Fronts::outside);
   CHECK(stands_in_room(scene));
-  CHECK(camera_seeing(scene).eye.x < camera.eye.x - 0.1f);
+  CHECK(camera_of(scene).eye.x < camera.eye.x - 0.1f);
   // One whose walls have no backs shows what stands in it from outside.
   scene.photometric = true;
   scene.materials[0].double_sided = false;
@@ -179,7 +184,66 @@ TEST_CASE("A room is seen from inside, where its walls would hide what stands in
   CHECK_FALSE(stands_in_room(scene));
 }
 
-TEST_CASE("A house, a thing that is turned inside out and a box with a lid off are seen from outside") {
+TEST_CASE("An empty room is one where its walls are of three materials, mirrored or on a ground too") {
+  Scene scene = model();
+  add_box(scene, glm::vec3(0), kRoom, Fronts::inside);
+  Mesh& walls = scene.meshes[0];
+  const Array<uint32_t> indices = walls.indices;
+  const size_t third = indices.size() / 3;
+  scene.instances.clear();
+  for (uint32_t part = 0; part < 3; ++part) {
+    Mesh mesh = walls;
+    mesh.indices.assign(indices.begin() + long(part * third), indices.begin() + long((part + 1) * third));
+    scene.meshes.push_back(mesh);
+    scene.materials.resize(part + 1, scene.materials[0]);
+    Instance instance;
+    instance.mesh = part + 1, instance.material = part;
+    scene.instances.push_back(instance);
+  }
+  CHECK(stands_in_room(scene));
+  scene.materials.resize(2);
+  scene.instances[2].material = 1;
+  CHECK_FALSE(stands_in_room(scene));
+  scene.instances[2].material = 2, scene.materials.resize(3, scene.materials[0]);
+  for (Instance& instance : scene.instances) {
+    instance.world_from_object[0].x = -1.0f;
+    instance.mirrored = true;
+  }
+  CHECK(stands_in_room(scene));
+  add_lights_of_ours(scene);
+  add_ground(scene);
+  CHECK(stands_in_room(scene));
+  scene.instances.erase(scene.instances.begin(), scene.instances.end() - 1);  // the ground alone
+  CHECK_FALSE(stands_in_room(scene));
+  scene.instances.clear();
+  scene.ground_of_ours = false;
+  CHECK_FALSE(stands_in_room(scene));
+}
+
+TEST_CASE("A picture of any shape and angle is seen from the same place in a room, an orbit from outside") {
+  Scene scene = model();
+  add_box(scene, glm::vec3(0), kRoom, Fronts::inside);
+  add_box(scene, {-1, -0.6f, 0}, glm::vec3(0.4f), Fronts::outside);
+  add_camera_of_ours(scene);
+  REQUIRE(scene.seen_from_inside);
+  const Camera square = ChangedCamera(scene, {}, 1.0).camera(scene), wide = ChangedCamera(scene, {}, 2.0).camera(scene);
+  CHECK(wide.eye == square.eye);
+  CHECK(wide.target == square.target);
+  CHECK(wide.fov_y_rad == square.fov_y_rad);
+  CHECK(wide.far == square.far);
+  CameraChanges changes;
+  changes.fov_y_deg = 40.0;
+  const Camera narrow = ChangedCamera(scene, changes, 2.0).camera(scene);
+  CHECK(narrow.eye == square.eye);
+  CHECK(narrow.fov_y_rad < 0.75f);
+  changes = {};
+  changes.orbit = OrbitPlace{25.0, 20.0};
+  const Camera outside = ChangedCamera(scene, changes, 2.0).camera(scene);
+  CHECK(outside.fov_y_rad == 0.5f);
+  CHECK(std::fabs(outside.eye.z) > kRoom.z);
+}
+
+TEST_CASE("A house, a thing that is turned inside out and a room without its front are seen from outside") {
   Scene house = model();
   add_box(house, glm::vec3(0), kRoom, Fronts::inside);
   add_box(house, glm::vec3(0), kRoom + glm::vec3(0.1f), Fronts::outside);
