@@ -88,7 +88,8 @@ struct Score {
   std::string simd;
   double value;
 };
-/// The geometric mean of frames a second over standard_rows(), by the least time of each: a score a SIMD target, best first.
+/// The geometric mean of frames a second over standard_rows(), by the least time of each. A score for each SIMD target,
+/// the best first.
 std::vector<Score> scores(const BenchResult& bench);
 std::string scores_text(const BenchResult& bench);
 std::string scores_json(const BenchResult& bench);

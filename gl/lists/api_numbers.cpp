@@ -1,7 +1,7 @@
 #include "gl/lists/api_numbers.h"
 
 #include <algorithm>
-#include <cassert>
+#include <stdexcept>
 
 namespace trueshade::oracle {
 
@@ -206,7 +206,7 @@ std::span<const ApiNumber> api_numbers(ShaderApi api) {
 uint32_t api_number(ShaderApi api, std::string_view name) {
   const std::span<const ApiNumber> all = api_numbers(api);
   const auto found = std::find_if(all.begin(), all.end(), [name](const ApiNumber& row) { return row.name == name; });
-  assert(found != all.end());
+  if (found == all.end()) throw std::logic_error("no number is known of " + std::string(name));
   return found->number;
 }
 

@@ -43,7 +43,7 @@ bool order_matters(const LightPass& p) {
 }
 bool of_small_floats(const LightPass& p) { return info(p.pipeline.target).small_float(); }
 bool stores_truncate(const LightPass& p) {
-  return of_codes(p) || (of_small_floats(p) && p.pipeline.gbuffer.half_round == HalfRound::nearest);
+  return holds_codes(p) || (of_small_floats(p) && p.pipeline.gbuffer.half_round == HalfRound::nearest);
 }
 bool stores_nearest(const LightPass& p) {
   return of_small_floats(p) && p.pipeline.gbuffer.half_round == HalfRound::toward_zero;
@@ -306,13 +306,13 @@ constexpr PictureFault of_all(std::string_view name, std::string_view text, bool
 // name, text, light, value, can, search, starts, move, doubt, reach
 constexpr PictureFault kLightFaults[] = {
     {"light-intensity", "the lights are %s times as bright as they should be", scale_intensity, nullptr, has_lamps,
-     Search::smooth, kFirstFactors},
+     Search::smooth, kFactorsNearOne},
     {"light-range", "the lights' range is %s times what it should be", scale_range, nullptr, has_range, Search::smooth,
-     kFirstFactors},
+     kFactorsNearOne},
     {"light-attenuation", "the lights' linear and quadratic attenuation are %s times what they should be",
-     scale_attenuation, nullptr, has_attenuation, Search::smooth, kFirstFactors},
+     scale_attenuation, nullptr, has_attenuation, Search::smooth, kFactorsNearOne},
     {"light-position", "the lights' positions are %s times what they should be", scale_position, nullptr, has_lamps,
-     Search::smooth, kFirstFactors},
+     Search::smooth, kFactorsNearOne},
     {"light-mirrored-z", "the lights' z has the wrong sign", mirror_z, nullptr, has_lamps},
     {"light-colors-bgr", "the lights' colours are in the order BGR", swap_colors},
     {"falloff-distance-once", "the falloff uses d where d^2 is due", distance_once, nullptr, squares},
@@ -336,7 +336,7 @@ constexpr PictureFault kLightFaults[] = {
     {"shininess", "the shininess is %s times what it should be", scale_shininess, nullptr, shines, Search::smooth,
      kShininessFactors},
     {"diffuse-factor", "the diffuse term is %s times what it should be", scale_diffuse, nullptr, has_lamps,
-     Search::smooth, kFirstFactors, nullptr, 0.01},
+     Search::smooth, kFactorsNearOne, nullptr, 0.01},
     {"lighting-normal-length",
      "the light pass leaves normals unnormalised, or normalises those that it should take as they are", other_length},
     {"lighting-normal-rounded", "the light pass reads normals rounded to %s steps", round_normals, nullptr, nullptr,
@@ -348,7 +348,7 @@ constexpr PictureFault kLightFaults[] = {
     {"diffuse-half-lambert", "N.L is replaced by (N.L / 2 + 1/2)^2", half_lambert},
     {"diffuse-missing", "N.L is missing", no_cosine},
     {"ambient-factor", "the ambient light is %s times as bright as it should be", scale_ambient, nullptr, has_ambient,
-     Search::smooth, kFirstFactors},
+     Search::smooth, kFactorsNearOne},
     {"emission-missing", "surfaces do not emit", no_emission, nullptr, emits},
     {"light-mirrored-x", "the lights' x has the wrong sign", mirror<0>, nullptr, has_lamps},
     {"light-mirrored-y", "the lights' y has the wrong sign", mirror<1>, nullptr, has_lamps},

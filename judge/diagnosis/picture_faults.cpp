@@ -96,7 +96,7 @@ constexpr double kCodes[] = {-4, -3, -2, -1, 1, 2, 3, 4};
 bool of_floats(const LightPass& p) { return info(p.pipeline.target).number_class == NumberClass::floating; }
 /// The value before the only store is known, and a code is a step of it.
 bool shows_dither(const LightPass& p) {
-  return of_codes(p) && !info(p.pipeline.target).srgb && !blends_lights(p.pipeline.strategy);
+  return holds_codes(p) && !info(p.pipeline.target).srgb && !blends_lights(p.pipeline.strategy);
 }
 
 /// Whether alpha can be anything but 1.
@@ -129,26 +129,26 @@ constexpr PictureFault kPictureFaults[] = {
     {"picture-premultiplied", "the picture's colours are multiplied by its alpha", nullptr, premultiply, has_alpha},
     {"picture-unpremultiplied", "the picture's colours are divided by its alpha", nullptr, unpremultiply, has_alpha},
     {"picture-exposure", "the picture is %s times as bright as it should be", nullptr, expose, nullptr, Search::smooth,
-     kFirstFactors},
+     kFactorsNearOne},
     {"picture-red-gain", "the picture's red is %s times as bright as it should be", nullptr, expose_one<0>, nullptr,
-     Search::smooth, kFirstFactors, nullptr, 0.01},
+     Search::smooth, kFactorsNearOne, nullptr, 0.01},
     {"picture-green-gain", "the picture's green is %s times as bright as it should be", nullptr, expose_one<1>, nullptr,
-     Search::smooth, kFirstFactors, nullptr, 0.01},
+     Search::smooth, kFactorsNearOne, nullptr, 0.01},
     {"picture-blue-gain", "the picture's blue is %s times as bright as it should be", nullptr, expose_one<2>, nullptr,
-     Search::smooth, kFirstFactors, nullptr, 0.01},
+     Search::smooth, kFactorsNearOne, nullptr, 0.01},
     {"picture-red-missing", "the picture has no red", nullptr, leave_one_out<0>},
     {"picture-green-missing", "the picture has no green", nullptr, leave_one_out<1>},
     {"picture-blue-missing", "the picture has no blue", nullptr, leave_one_out<2>},
     {"picture-grey", "the picture is grey", nullptr, make_grey},
     {"picture-saturation", "the picture's colours are %s times as far from grey as they should be", nullptr, saturate,
-     nullptr, Search::smooth, kFirstFactors, nullptr, 0.01},
+     nullptr, Search::smooth, kFactorsNearOne, nullptr, 0.01},
     {"picture-ceiling", "the picture holds nothing above %s", nullptr, cut_off, nullptr, Search::smooth, kCeilings,
      nullptr, 0.01},
     {"picture-tone-mapped", "the picture is tone-mapped by x / (1 + x)", nullptr, map_tones},
     {"picture-clamped", "the picture is clamped to [0, 1]", nullptr, clamp_to_one, of_floats},
     {"picture-inverted", "the picture shows 1 - x", nullptr, invert},
-    {"picture-bits", "the picture keeps %s bits a channel", nullptr, cut_bits, of_codes, Search::one_of, kBits, nullptr,
-     0.01},
+    {"picture-bits", "the picture keeps %s bits a channel", nullptr, cut_bits, holds_codes, Search::one_of, kBits,
+     nullptr, 0.01},
     {"picture-offset", "a constant of %s / 255 is added to the picture", nullptr, raise, nullptr, Search::one_of,
      kCodes, nullptr, 0.01},
     {"picture-alpha", "the picture's alpha is %s everywhere", nullptr, set_alpha, nullptr, Search::one_of,

@@ -60,11 +60,11 @@ struct PictureFault {
   }
 };
 
-/// Factors that a search starts from, of what makes a picture brighter or darker.
-inline constexpr double kFirstFactors[] = {0.5, 0.9, 0.99, 1.01, 1.1, 2};
+/// Where the search for a factor starts.
+inline constexpr double kFactorsNearOne[] = {0.5, 0.9, 0.99, 1.01, 1.1, 2};
 
 /// Whether the target's texels are codes.
-inline bool of_codes(const LightPass& p) { return info(p.pipeline.target).number_class == NumberClass::unorm; }
+inline bool holds_codes(const LightPass& p) { return info(p.pipeline.target).number_class == NumberClass::unorm; }
 
 std::span<const PictureFault> picture_value_faults();  ///< picture_faults.cpp
 std::span<const PictureFault> light_faults();          ///< light_faults.cpp

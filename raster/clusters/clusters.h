@@ -68,8 +68,8 @@ class ClusterSource {
   /// and the textures of the instance's material. Error(io) where they are damaged. May be called on any thread.
   virtual void check(const Scene& scene, const Instance& instance, const ClusteredMesh& mesh,
                      const Cluster& cluster) const = 0;
-  /// What camera_seeing() reads to frame a camera of ours: the positions of all meshes, and where looks_at_faces() their
-  /// triangles and normals. Error(io) where they are damaged.
+  /// What camera_seeing() reads to frame a camera of ours: the positions of all meshes, and their triangles and
+  /// normals where looks_at_faces() says so. Error(io) where they are damaged.
   virtual void check_for_camera(const Scene& scene) const = 0;
   virtual void check_all() const = 0;
 };

@@ -8,8 +8,6 @@
 #include "tests/scratch_folder.h"
 
 namespace trueshade {
-namespace {}  // namespace
-
 TEST_CASE("A run with --timeout ends within a second, in one line, and every file is whole") {
   const ScratchFolder folder;
   const auto start = std::chrono::steady_clock::now();
