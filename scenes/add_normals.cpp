@@ -1,5 +1,6 @@
 #include "scenes/add_normals.h"
 
+#include <cassert>
 #include <glm/vec3.hpp>
 #include <span>
 
@@ -54,6 +55,7 @@ void set_flat_normals(Mesh& mesh) {
 }
 
 void add_normals(Mesh& mesh, MissingNormals kind) {
+  assert(kind != MissingNormals::creased);
   if (kind == MissingNormals::flat) {
     take_apart(mesh.position, mesh.indices);
     take_apart(mesh.uv, mesh.indices);

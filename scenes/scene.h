@@ -160,10 +160,10 @@ void validate_moving(const Scene& scene, double time);
 
 /// Reads `builtin:NAME[,key=value...]`, a scene file (.json), glTF (.gltf, .glb), geometry (.obj, .ply, and these with
 /// .gz), endings in small letters or capitals, or `-`: standard input without OBJ and .gz; and validates it. glTF
-/// without a camera or lights gets them as geometry does. Geometry alone has smooth normals if it has none, is grey
-/// where it has no material, and gets a camera, lights and a ground of ours. Without `decode` a scene that names an
-/// image file is refused. Errors: bad_input with file and place; limit; io for a file that cannot be read; usage for
-/// `parts` that the scene has not.
+/// without a camera or lights gets them as geometry does. Geometry alone has smooth normals if it has none, creased
+/// ones (MissingNormals) if it is an OBJ file. It is grey where it has no material, and gets a camera, lights and a
+/// ground of ours. Without `decode` a scene that names an image file is refused. Errors: bad_input with file and place;
+/// limit; io for a file that cannot be read; usage for `parts` that the scene has not.
 Scene load_scene(const std::string& spec, const SceneLimits& limits = {}, const ImageDecoder& decode = {},
                  const SceneParts& parts = {});
 

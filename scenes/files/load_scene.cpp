@@ -88,7 +88,7 @@ Scene loaded_scene(const std::string& spec, const SceneLimits& limits, const Ima
     scene = shown(scene_of(mesh_from_file(file, spec, limits, MissingNormals::smooth)));
   } else if (is_obj_name(spec)) {
     const Bytes file = read_user_file(spec, limits.file_bytes);
-    scene = shown(scene_from_obj(file, spec, limits, decode, MissingNormals::smooth));
+    scene = shown(scene_from_obj(file, spec, limits, decode, MissingNormals::creased));
   } else {
     const auto& known = builtin_scenes();
     const std::string name = spec.substr(0, spec.find(','));

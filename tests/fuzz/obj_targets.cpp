@@ -120,7 +120,7 @@ void check_library(const obj::MtlDocument& document) {
 }  // namespace
 
 void run_obj(Bytes bytes) {
-  for (const MissingNormals missing : {MissingNormals::smooth, MissingNormals::flat})
+  for (const MissingNormals missing : {MissingNormals::smooth, MissingNormals::creased, MissingNormals::flat})
     for (const Leniency leniency : kEachWay)
       read([&] {
         const SceneLimits limits = small_limits(leniency);

@@ -1,5 +1,6 @@
 #include "scenes/files/obj/obj_meshes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -7,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/fp_env.h"
+#include "scenes/files/obj/creases.h"
 #include "scenes/files/obj/geometry_budget.h"
 #include "scenes/files/obj/polygons.h"
 #include "scenes/trig.h"
@@ -18,11 +20,19 @@ constexpr uint32_t kNone = UINT32_MAX;
 constexpr int kLongestList = 8;          // of the vertices, and of the sums, at a position; others are in a map
 constexpr uint64_t kBytesOfEntry = 128;  // of such a map, about
 
+/// Whether creases are looked for: the file says nothing about normals.
+bool is_creased(const ObjDocument& document, MissingNormals missing) {
+  const auto has_group = [](const Run& run) { return run.smoothing >= 0; };
+  return missing == MissingNormals::creased && document.normals.empty() &&
+         std::none_of(document.runs.begin(), document.runs.end(), has_group);
+}
+
 class MeshMaker {
  public:
   MeshMaker(const ObjDocument& document, MissingNormals missing, const SceneLimits& limits)
       : document_(document),
         missing_(missing),
+        creased_(is_creased(document, missing)),
         budget_(limits, document.file),
         first_vertex_(document.position_count(), kNone),
         first_sum_(document.position_count(), kNone) {}
@@ -35,6 +45,7 @@ class MeshMaker {
           run + 1 == document_.runs.size() ? document_.polygon_count() : document_.runs[run + 1].first_polygon;
       for (size_t polygon = document_.runs[run].first_polygon; polygon < last; ++polygon) add_polygon(polygon);
     }
+    if (!kept_.empty()) add_kept_triangles();
     write_normals();
     return std::move(parts_);
   }
@@ -47,11 +58,17 @@ class MeshMaker {
     uint64_t normal;
   };
 
-  /// Cross products of a smoothing group's triangles about one position, or of one triangle.
+  /// Cross products of a smoothing group's triangles about one position, of some of these, or of one triangle.
   struct NormalSum {
     uint32_t next;
     int32_t group;
     glm::dvec3 sum;
+  };
+
+  /// A triangle that waits until all triangles around its corners are known.
+  struct KeptTriangle {
+    uint32_t corners[3];  ///< of the document
+    uint32_t part, polygon;
   };
 
   [[noreturn]] void fail(size_t polygon, const std::string& reason, const std::string& remedy) const {
@@ -62,7 +79,7 @@ class MeshMaker {
   void begin(const Run& run) {
     const auto [found, is_new] = part_of_.try_emplace({run.object, run.material}, uint32_t(parts_.size()));
     part_ = found->second;
-    group_ = run.smoothing >= 0 ? run.smoothing : missing_ == MissingNormals::smooth ? 1 : 0;
+    group_ = run.smoothing >= 0 ? run.smoothing : missing_ == MissingNormals::flat ? 0 : 1;
     if (!is_new) return;
     take(sizeof(ObjPart), run.first_polygon);
     parts_.push_back({Mesh(), run.material, run.object});
@@ -88,7 +105,79 @@ class MeshMaker {
       fail(polygon, "a concave face has " + std::to_string(count) + " corners",
            "at most " + std::to_string(kMostConcaveCorners) + ", or triangles");
     take(triangles_.size() * sizeof(uint32_t), polygon);
-    for (size_t t = 0; t < triangles_.size(); t += 3) add_triangle(&document_.corners[first], &triangles_[t]);
+    for (size_t t = 0; t < triangles_.size(); t += 3)
+      if (creased_)
+        keep_triangle(first, &triangles_[t]);
+      else
+        add_triangle(&document_.corners[first], &triangles_[t]);
+  }
+
+  void keep_triangle(size_t first_corner, const uint32_t* triangle) {
+    take(sizeof(KeptTriangle), polygon_);
+    KeptTriangle kept{{}, part_, uint32_t(polygon_)};
+    for (int k = 0; k < 3; ++k) kept.corners[k] = uint32_t(first_corner + triangle[k]);
+    kept_.push_back(kept);
+  }
+
+  void add_kept_triangles() {
+    const std::vector<uint32_t> sums = creased_sums();
+    for (size_t t = 0; t < kept_.size(); ++t) {
+      part_ = kept_[t].part;
+      polygon_ = kept_[t].polygon;
+      for (size_t k = 0; k < 3; ++k)
+        parts_[part_].mesh.indices.push_back(vertex(kept_corner(3 * t + k), file_normals() + sums[3 * t + k]));
+    }
+  }
+
+  /// Corners of the kept triangles, three a triangle, by their positions: those at p are corners[begin[p]] to
+  /// corners[begin[p + 1] - 1], in the file's order.
+  struct ByPosition {
+    std::vector<uint32_t> begin, corners;
+  };
+
+  const Corner& kept_corner(size_t corner) const { return document_.corners[kept_[corner / 3].corners[corner % 3]]; }
+
+  ByPosition corners_by_position() {
+    const size_t positions = document_.position_count(), count = 3 * kept_.size();
+    take((positions + 1 + count) * sizeof(uint32_t), polygon_);
+    ByPosition out{std::vector<uint32_t>(positions + 1, 0), std::vector<uint32_t>(count)};
+    // begin[p + 1] is the number of corners at p, then where they begin, and once they are written where they end.
+    for (size_t corner = 0; corner < count; ++corner) ++out.begin[size_t(kept_corner(corner).position) + 1];
+    uint32_t before = 0;
+    for (size_t p = 0; p < positions; ++p) before += std::exchange(out.begin[p + 1], before);
+    for (size_t corner = 0; corner < count; ++corner)
+      out.corners[out.begin[size_t(kept_corner(corner).position) + 1]++] = uint32_t(corner);
+    return out;
+  }
+
+  /// Index of the sum of each corner of the kept triangles, three a triangle.
+  std::vector<uint32_t> creased_sums() {
+    const ByPosition by_position = corners_by_position();
+    uint32_t most = 0;  // corners at a position
+    for (size_t p = 0; p < document_.position_count(); ++p)
+      most = std::max(most, by_position.begin[p + 1] - by_position.begin[p]);
+    take((3 * kept_.size() + most) * sizeof(uint32_t) + most * sizeof(glm::dvec3), polygon_);
+    std::vector<uint32_t> sums(3 * kept_.size());
+    CreasedVertex creased;
+    std::vector<glm::dvec3> area_normals;
+    area_normals.reserve(most);
+    for (size_t p = 0; p < document_.position_count(); ++p) {
+      const uint32_t *corner = by_position.corners.data() + by_position.begin[p],
+                     *end = by_position.corners.data() + by_position.begin[p + 1];
+      area_normals.clear();
+      for (const uint32_t* c = corner; c != end; ++c) area_normals.push_back(area_normal_of(kept_[*c / 3]));
+      creased.set(area_normals);
+      const uint32_t first = uint32_t(sums_.size());
+      for (const glm::dvec3& sum : creased.sums()) sums_[new_sum(kNone)].sum = sum;
+      for (const uint32_t sum : creased.sum_of_triangle()) sums[*corner++] = first + sum;
+    }
+    return sums;
+  }
+
+  glm::dvec3 area_normal_of(const KeptTriangle& triangle) const {
+    const glm::dvec3 a = position(document_.corners[triangle.corners[0]]);
+    return cross(position(document_.corners[triangle.corners[1]]) - a,
+                 position(document_.corners[triangle.corners[2]]) - a);
   }
 
   void add_triangle(const Corner* corners, const uint32_t* triangle) {
@@ -191,12 +280,14 @@ class MeshMaker {
 
   const ObjDocument& document_;
   MissingNormals missing_;
+  bool creased_;
   GeometryBudget budget_;
   std::vector<uint32_t> first_vertex_, first_sum_;  ///< of each position, into the lists below
   std::vector<Vertex> vertices_;
   std::vector<NormalSum> sums_;
   std::map<std::tuple<int32_t, int32_t, uint64_t, uint32_t>, uint32_t> more_vertices_;  ///< indices in their parts
   std::map<std::pair<int32_t, int32_t>, uint32_t> more_sums_;  ///< by position and smoothing group
+  std::vector<KeptTriangle> kept_;                             ///< where creases are looked for, in the file's order
   std::vector<ObjPart> parts_;
   std::map<std::pair<int32_t, int32_t>, uint32_t> part_of_;  ///< by object and material
   uint32_t part_ = 0;

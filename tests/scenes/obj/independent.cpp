@@ -30,7 +30,7 @@ Image white(std::span<const uint8_t>, const std::string&, uint64_t) {
 
 Scene ours(const std::string& path) {
   const Bytes file = read_user_file(path, uint64_t(1) << 30);
-  return scene_from_obj(file, path, {}, white, MissingNormals::smooth);
+  return scene_from_obj(file, path, {}, white, MissingNormals::creased);
 }
 
 /// A corner of a triangle: position, texture coordinate, normal, and the material's name.
