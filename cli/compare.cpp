@@ -128,19 +128,6 @@ int compare_two_pictures(const CompareOptions& options) {
   return passes(pictures) || pictures.is_accepted ? 0 : 1;
 }
 
-/// Writes the error that ends the command into the JUnit report. Otherwise CI services would show the report of an
-/// earlier run.
-void report_failure(const CompareOptions& options, const Error& error) {
-  PictureRow row;
-  row.name = options.test;
-  row.state = RowState::unreadable;
-  row.reason = error.what();
-  try {
-    write_text(*options.junit, junit_xml({options.reference, options.test, {row}, {}, {}}));
-  } catch (const Error&) {  // the first error is the one to tell
-  }
-}
-
 int compare_two_folders(CompareOptions options) {
   const auto first_page = std::stable_partition(options.outputs.begin(), options.outputs.end(),
                                                 [](const std::string& path) { return !is_page(path); });
@@ -186,10 +173,11 @@ int compare_pictures(const CompareOptions& options) {
   check_names(options);
   std::error_code unknown;
   const bool is_first = options.accept && is_folder(options.test) && !fs::exists(options.reference, unknown);
+  if (is_first) say_notes({options.reference + " is not there, so it is made of the pictures that are accepted"});
   try {
     return is_first || is_folder(options.reference) ? compare_two_folders(options) : compare_two_pictures(options);
   } catch (const Error& error) {
-    if (options.junit && error.kind() != ErrorKind::usage) report_failure(options, error);
+    if (options.junit) report_error(*options.junit, "trueshade compare", options.test, error);
     throw;
   }
 }

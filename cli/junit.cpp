@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "cli/written_files.h"
 #include "core/printable_text.h"
 
 namespace trueshade {
@@ -68,6 +69,21 @@ std::string junit_xml(const FolderComparison& folders) {
                     figures + ">\n  <testsuite" + attribute("name", folders.reference) + figures + ">\n";
   for (const PictureRow& row : folders.rows) xml += testcase(folders, row);
   return xml + "  </testsuite>\n</testsuites>\n";
+}
+
+void report_error(const std::string& report, const std::string& command, const std::string& checked,
+                  const Error& error) {
+  const std::string figures =
+      attribute("tests", "1") + attribute("failures", "0") + attribute("errors", "1") + attribute("time", "0");
+  const std::string reason = error.what();
+  try {
+    write_text(report, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" + attribute("name", command) +
+                           figures + ">\n  <testsuite" + attribute("name", checked) + figures + ">\n    <testcase" +
+                           attribute("classname", command) + attribute("name", checked) + ">\n      <error" +
+                           attribute("type", "ended") + attribute("message", reason) + ">" + xml_text(reason) +
+                           "</error>\n    </testcase>\n  </testsuite>\n</testsuites>\n");
+  } catch (const Error&) {
+  }
 }
 
 }  // namespace trueshade

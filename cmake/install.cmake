@@ -25,6 +25,7 @@ install(FILES ${PROJECT_SOURCE_DIR}/scenes/schemas/scene.schema.json ${PROJECT_S
               ${PROJECT_SOURCE_DIR}/cli/batch/jobs.schema.json
         DESTINATION ${CMAKE_INSTALL_DATADIR}/trueshade COMPONENT command)
 
+install(FILES ${PROJECT_SOURCE_DIR}/programs/light_interface.glsl DESTINATION ${CMAKE_INSTALL_DATADIR}/trueshade COMPONENT command)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/light_models/ DESTINATION ${CMAKE_INSTALL_DATADIR}/trueshade/light_models COMPONENT command)
 
 install(EXPORT trueshade NAMESPACE trueshade:: FILE trueshadeTargets.cmake DESTINATION ${config_dir} COMPONENT dev)

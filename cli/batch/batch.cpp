@@ -8,6 +8,7 @@
 #include "cli/batch/batch_run.h"
 #include "cli/batch/child.h"
 #include "cli/commands.h"
+#include "cli/junit.h"
 #include "cli/notes.h"
 #include "cli/terminal.h"
 #include "cli/written_files.h"
@@ -122,7 +123,13 @@ int run_batch(const BatchOptions& options) {
   Ranks& ranks = joined != nullptr ? *joined : alone;
   if (ranks.own() != 0) be_quiet();
   BatchRun run(options, ranks);
-  const std::vector<std::string> lost = shared(run, options, ranks);
+  std::vector<std::string> lost;
+  try {
+    lost = shared(run, options, ranks);
+  } catch (const Error& error) {
+    if (options.junit && ranks.own() == 0) report_error(*options.junit, "trueshade batch", options.file, error);
+    throw;
+  }
   if (ranks.own() != 0) return 0;
   for (const std::string& rank : lost) say_notes({rank + "; its jobs were done by others"});
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

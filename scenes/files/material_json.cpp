@@ -192,7 +192,8 @@ TextureSlot MaterialReader::read_map(const json::Node& node, UvSource& uv) const
 
 Material MaterialReader::read_material(const json::Node& node, UvSources& uv) const {
   node.check_keys(kMaterial);
-  Material material{node.member("name").string(), node.member("color").color()};
+  Material material{node.member("name").string(), glm::vec4(1.0f)};
+  if (const auto color = node.find("color")) material.base_color = color->color();
   if (const auto color = node.find("specular_color")) material.specular_color = color->vec3(0.0f, 1e18);
   if (const auto shininess = node.find("shininess")) material.shininess = float(shininess->integer(0, 8192));
   if (const auto color = node.find("emission")) material.emission = color->vec3(0.0f, 1e18);

@@ -331,6 +331,17 @@ TEST_CASE("JUnit and the page say what the table says, and a full disk takes no 
   check_refused(batch.run({"--state", "nowhere/s"}), 5, "nowhere/s: cannot open it");
 }
 
+TEST_CASE("An error that ends a batch is in its JUnit, in place of what an earlier run wrote there") {
+  const Batch batch;
+  batch.write({job("a", drawing("builtin:cornell", "a.png"))});
+  REQUIRE(batch.run({"--junit", "r.xml"}).exit_code == 0);
+  batch.folder.write("jobs.json", R"({"jobs": [{"name": "a", "runs": ["info", "builtin:cornell"]}]})");
+  CHECK(batch.run({"--junit", "r.xml"}).exit_code == 3);
+  const std::string junit = contents(batch.folder.path("r.xml"));
+  CHECK(junit.find(R"(failures="0" errors="1")") != std::string::npos);
+  CHECK(junit.find("/jobs/0") != std::string::npos);
+}
+
 /// Starts a batch in a folder, silent.
 pid_t start_batch(const Batch& batch) {
   const std::string place = batch.folder.path("");

@@ -88,9 +88,10 @@ TEST_CASE("cameras by angle along either axis and by matrix") {
 TEST_CASE(
     "a material has a specular colour, emission and glTF's two numbers, lights an ambient share and an exponent") {
   const Scene scene =
-      load_with_plys(with_key("materials", R"([{"name": "a", "color": [1, 1, 1]}, {"name": "b", "color": [1, 1, 1],
+      load_with_plys(with_key("materials", R"([{"name": "a"}, {"name": "b", "color": [1, 1, 1],
       "specular_color": [0.1, 0.2, 0.3], "shininess": 60, "emission": [1, 2, 3], "metallic": 0.25, "roughness": 0.5}])"));
   const Material& plain = scene.materials.at(0);
+  CHECK(plain.base_color == glm::vec4(1.0f));
   CHECK(plain.specular_color == glm::vec3(0.25f));
   CHECK(plain.shininess == 32.0f);
   CHECK(plain.emission == glm::vec3(0.0f));
