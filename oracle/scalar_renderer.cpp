@@ -277,7 +277,7 @@ std::array<ValueRange, 3> normal_at(const DrawnTriangle& t, const GBufferState& 
 float held_depth(const GeometryState& state, float z) {
   if (depth_bits(state) == 0) return z;
   const float largest = float(std::ldexp(1.0, depth_bits(state)) - 1);
-  const auto product = double(z * largest);  // a float, as docs/gl_rules.md section 2 has it
+  const auto product = double(z * largest);  // a float, as docs/arithmetic.md section 6 has it
   double code = std::floor(product);
   const double rest = product - code;
   if (rest > 0.5 || (rest == 0.5 && std::fmod(code, 2.0) != 0.0)) code += 1.0;

@@ -43,7 +43,7 @@ awk -F'\t' -v folder="$folder" '
       split(titles[t], part, FS)
       out = folder "/validation_" part[1] "_" part[2] ".md"
       print "# " part[1] ", held to `" part[2] "`\n" > out
-      print "Written by `scripts/validation_table.sh`; [drivers.md](drivers.md) says what the columns mean.\n" > out
+      print "Written by `scripts/validation_table.sh`. [validation.md](../validation.md#what-the-classes-mean) explains the classes,\n[drivers.md](drivers.md#every-scene-under-every-preset-and-strategy) the rows and the last two columns.\n" > out
       print "| scene, strategy | frames | EXACT | STORE-2 | EDGE | DEPTH-TIE | CLIP | BRANCH | TEX | UNDEFINED | VIOLATION | lit | seen / predicted |" > out
       print "|---|---|---|---|---|---|---|---|---|---|---|---|---|" > out
       for (i = 1; i <= rows[titles[t]]; ++i) print row(order[titles[t], i]) > out

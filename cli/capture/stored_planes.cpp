@@ -39,8 +39,8 @@ Format stored_format(const Pipeline& pipeline, const std::string& plane) {
 }
 
 /// The code k whose value a file stored; nothing where `value` is of no code. The value is k / largest as drivers read
-/// it back (docs/gl_rules.md section 3 measured k * fl32(1 / 255), 1.25 ulp off), as a half, which is off by half a
-/// half's ulp, or as a code of `from`, the file's format.
+/// it back (k * fl32(1 / 255), 1.25 ulp off by docs/data/drivers.md), as a half, which is off by half a half's ulp,
+/// or as a code of `from`, the file's format.
 std::optional<uint32_t> code_of(double value, uint32_t largest, const FormatInfo& from) {
   const double code = std::nearbyint(value * largest);
   if (!(code >= 0.0 && code <= largest)) return std::nullopt;
@@ -51,8 +51,8 @@ std::optional<uint32_t> code_of(double value, uint32_t largest, const FormatInfo
   return std::fabs(value - code / largest) <= off ? std::optional(uint32_t(code)) : std::nullopt;
 }
 
-/// The sRGB code whose linear value is within 2.5 % of `value`, as far as llvmpipe's decoding is off (docs/gl_rules.md
-/// section 3); nothing where there is none.
+/// The sRGB code whose linear value is within 2.5 % of `value`, as far as llvmpipe's decoding is off
+/// (docs/data/drivers.md); nothing where there is none.
 std::optional<uint32_t> srgb_code_of(double value) {
   const uint32_t code = srgb8_from_linear(float(value));
   const double exact = double(kLinearOfSrgb8[code]);

@@ -92,7 +92,7 @@ struct Profile {
   bool exact_planes = false;    ///< attributes are within 1 ulp of the largest vertex value, inside the vertices' hull
   bool clips_to_view = true;    ///< triangles that leave the view may be cut at its sides and snapped again there
   double unorm_reach = 1.0;     ///< |code - 255 x| a store may reach; 1 is open: an integer is exact
-  /// The same of an encoded sRGB value: drivers approximate the power (docs/gl_rules.md section 3).
+  /// The same of an encoded sRGB value: drivers approximate the power (docs/data/drivers.md, stores).
   double srgb_reach = 1.0;
   HalfStore half = HalfStore::either;
   StoreRule likely;  ///< what is nominal of all that the knobs allow; resolved() finds it where its `half` is open
@@ -100,7 +100,7 @@ struct Profile {
   bool max_norm_slope = false;  ///< polygon offset takes the larger slope; else anything up to their Euclidean norm
   BlendRule blend = BlendRule::any_precision;
   /// Relative, of reading a unorm texel as float: a division as GLSL has it. Drivers multiply by 1 / (2^b - 1): 1.25
-  /// ulp at most (docs/gl_rules.md section 3).
+  /// ulp at most (docs/data/drivers.md, stores).
   double fetch_error = 2.5 * 0x1p-23;
   Sampling sampling;
   Arithmetic arithmetic;

@@ -33,7 +33,7 @@ Texel blended_texel(const BlendState& state, Format format, const Profile& profi
 Texel likely_texel(const BlendState& state, Format format, const Profile& profile, const Profile& likely,
                    const std::array<Range, 4>& source, const Texel& stored);
 
-/// What drivers' decoding of an sRGB code was found to be off at most (docs/gl_rules.md section 3), with room for its
+/// What drivers' decoding of an sRGB code was found to be off at most (docs/data/drivers.md, stores), with room for its
 /// rounding.
 inline constexpr double kSrgbDecodeError = 1.3e-3;
 

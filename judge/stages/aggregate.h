@@ -1,5 +1,5 @@
 #pragma once
-// Tests of a whole image on top of the legal sets of its pixels (docs/gl_rules.md section 7, point 4): an image each
+// Tests of a whole image on top of the legal sets of its pixels (docs/gl_rules.md section 9): an image each
 // pixel of which is legal may still be one that no honest rounding makes.
 #include <string>
 #include <vector>
