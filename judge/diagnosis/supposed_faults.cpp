@@ -46,6 +46,8 @@ Error refused(const std::string& name, const std::string& reason, const std::str
   return {ErrorKind::usage, "--suppose", "'" + name + "' " + reason, remedy};
 }
 Error no_fault(const std::string& name) {
+  if (name.starts_with("light-shader-"))
+    return refused(name, "cannot be supposed: slips of a light program are looked for without it", "leave it out");
   std::vector<std::string> known;
   for (const KnownFault& fault : known_faults()) known.push_back(fault.name);
   return refused(

@@ -62,7 +62,8 @@ TEST_CASE("What is supposed is answered alone, and a fault that is not known is 
       {"tile-lists-16=1e10", "has a parameter that it does not take (tile-lists-16 takes 0, 1, 2, 3, 4, 5, 6, 7)"},
       {"light-intensity=nan",
        "has a parameter that it does not take (light-intensity takes a number from 0.001 to 1000)"},
-      {"picture-flip-y=1", "has a parameter (picture-flip-y takes none)"}};
+      {"picture-flip-y=1", "has a parameter (picture-flip-y takes none)"},
+      {"light-shader-line-13", "cannot be supposed: slips of a light program"}};
   for (const auto& [name, reason] : refusals) {
     const Outcome refused = judged_capture(folder, {"--suppose", name});
     CAPTURE(name, refused.err);

@@ -85,6 +85,10 @@ class Libraries {
     if (!names.empty()) scene_.notes.push_back("What the material library says by these words is not drawn: " + names);
     add_note(mirrors_, "material asks", "materials ask",
              " for reflection or refraction (illum 3 to 9), which is not drawn: Their highlights are");
+    if (drawn_.front() >= 0 && document_.libraries.empty() && !document_.uvs.empty())
+      scene_.notes.push_back(
+          "The file has texture coordinates and names no material (mtllib), so it is grey: A scene "
+          "file gives it a texture");
     const std::string undefined =
         " grey, because no library of the file (mtllib) defines " + std::string(undefined_ == 1 ? "it: " : "them: ");
     add_note(undefined_, "material is", "materials are",
