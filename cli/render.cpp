@@ -88,6 +88,18 @@ std::string vain_note(const RenderOptions& options, const Pipeline& pipeline) {
   return {};
 }
 
+/// Where a model's light, by a light program, goes into a PNG as codes although no option asks for that; else empty.
+std::string dark_codes_note(const RenderOptions& options, const Pipeline& pipeline, const Scene& scene) {
+  const bool to_png = std::any_of(options.outputs.begin(), options.outputs.end(),
+                                  [](const std::string& path) { return has_ending(path, ".png"); });
+  const FormatInfo target = info(pipeline.target);
+  if (!options.light_shader || options.target || options.encode || !to_png || !is_shown_for_looks(options, scene) ||
+      target.number_class != NumberClass::unorm || target.srgb)
+    return {};
+  return "The light program's light is shown as codes of " + std::string(target.name) +
+         ", which are darker than light on a screen (--target rgba16f shows light)";
+}
+
 }  // namespace
 
 SceneToRender::SceneToRender(const RenderOptions& given, const Execution& execution)
@@ -107,6 +119,7 @@ SceneToRender::SceneToRender(const RenderOptions& given, const Execution& execut
   if (std::string note = vain_note(given, pipeline); !note.empty()) scene.notes.push_back(std::move(note));
   if (scene.seen_from_inside && !options.camera.any() && !options.turntable)
     scene.notes.push_back("The model is a room, so it is seen from inside (--orbit 25,20 sees it from outside)");
+  if (std::string note = dark_codes_note(given, pipeline, scene); !note.empty()) scene.notes.push_back(std::move(note));
   check_cube_map(options, pipeline);
   validate_region(pipeline, options.execution.region);
   if (options.resume && (!is_streamed(options, pipeline) || options.outputs.empty() || options.numbered()))

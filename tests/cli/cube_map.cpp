@@ -98,7 +98,7 @@ TEST_CASE("A cross holds the six faces at their places, and nothing elsewhere") 
 TEST_CASE("A cube map of the camera's place is that of its numbers, moves with the time, and says what it is") {
   const ScratchFolder folder;
   const auto hashes = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {"render", "builtin:red", "--size", "32x32", "--hash", "--cube-map"});
+    more.insert(more.begin(), {"render", "builtin:circle", "--size", "32x32", "--hash", "--cube-map"});
     const Outcome outcome = run_command(more, folder.path(""));
     CHECK(outcome.exit_code == 0);
     return outcome.out;
@@ -120,7 +120,7 @@ TEST_CASE("A cube map of the camera's place is that of its numbers, moves with t
 }
 
 TEST_CASE("Cube maps that make no sense are refused in a line") {
-  const std::vector<std::string> draw = {"render", "builtin:red"};
+  const std::vector<std::string> draw = {"render", "builtin:circle"};
   const auto refused = [&](std::vector<std::string> more, const std::string& about) {
     more.insert(more.begin(), draw.begin(), draw.end());
     check_refused(run_command(more), 2, about);

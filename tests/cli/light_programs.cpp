@@ -47,6 +47,20 @@ vec3 light(Surface s, Light l, View v) { return gain * tint * s.albedo.rgb * l.c
   CHECK(has(compared.out + compared.err, "light program"));
 }
 
+TEST_CASE("A model's light by a program that goes into a PNG as codes is told of, unless an option asks for it") {
+  shaders().write("tri.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n");
+  const auto told = [](std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", "tri.obj", "--size", "16x12", "--light-shader", "gltf"});
+    const Outcome outcome = run(more);
+    CHECK(outcome.exit_code == 0);
+    return has(outcome.err, "is shown as codes of rgba8");
+  };
+  CHECK(told({"-o", "t.png"}));
+  CHECK_FALSE(told({"-o", "t.png", "--target", "rgba8"}));
+  CHECK_FALSE(told({"-o", "t.png", "--target", "rgba16f"}));
+  CHECK_FALSE(told({"--hash"}));
+}
+
 TEST_CASE("What is wrong with a light program is said with its place or its option") {
   shaders().write("wrong.glsl", "vec3 light(Surface s, Light l, View v) {\n  return s.normals;\n}\n");
   const std::vector<std::string> frame{"render", "builtin:cornell", "--size", "32x24", "--hash"};

@@ -14,7 +14,7 @@
 namespace trueshade {
 namespace {
 
-const std::vector<std::string> kDraw = {"render", "builtin:red", "--size", "31x17"};  // rows that no alignment fits
+const std::vector<std::string> kDraw = {"render", "builtin:circle", "--size", "31x17"};  // rows that no alignment fits
 
 Outcome draw(std::vector<std::string> more, const ScratchFolder& folder) {
   more.insert(more.begin(), kDraw.begin(), kDraw.end());
@@ -64,7 +64,7 @@ TEST_CASE("Raw video is the codes of the frames' PNGs, one frame after the other
 
 TEST_CASE("Raw video of a cube map's cross is one picture a frame, and --quiet says nothing beside it") {
   const ScratchFolder folder;
-  const Outcome video = run_command({"render", "builtin:red", "--size", "8x8", "--cube-map", "eye", "--cube-cross",
+  const Outcome video = run_command({"render", "builtin:circle", "--size", "8x8", "--cube-map", "eye", "--cube-cross",
                                      "--frames", "0-1", "--raw-video", "-o", "-", "--quiet"},
                                     folder.path(""));
   CHECK(video.exit_code == 0);
@@ -79,11 +79,11 @@ TEST_CASE("Raw video has standard output for itself, and a reader that goes ends
   check_refused(draw({"--raw-video", "-o", "-", "-o", "a.png"}, folder), 2, "give -o - and no other -o");
   check_refused(draw({"--raw-video", "-o", "-", "--hash"}, folder), 2, "standard output is the video");
   check_refused(draw({"--raw-video", "-o", "-", "--aov", "depth"}, folder), 2, "planes go into an EXR only");
-  check_refused(run_command({"render", "builtin:red", "--cube-map", "eye", "--raw-video", "-o", "-"}), 2,
+  check_refused(run_command({"render", "builtin:circle", "--cube-map", "eye", "--raw-video", "-o", "-"}), 2,
                 "there are six");
   const std::string gone = "cd '" + folder.path("") +
                            "' && { " TRUESHADE_COMMAND
-                           " render builtin:red --size 640x480 --frames 0-40 --raw-video -o - --quiet 2>err; "
+                           " render builtin:circle --size 640x480 --frames 0-40 --raw-video -o - --quiet 2>err; "
                            "echo $? >code; } | head -c 1000 >/dev/null";
   CHECK(std::system(gone.c_str()) == 0);
   std::ifstream code(folder.path("code"));
