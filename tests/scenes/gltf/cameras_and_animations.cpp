@@ -96,7 +96,7 @@ TEST_CASE("a camera or an animation that a file has not is refused with those th
   CHECK_THAT(refused("", nullptr), Catch::Contains("no camera ''"));
   CHECK_THAT(refused(nullptr, "Run"), Catch::StartsWith("--animation: ") &&
                                           Catch::EndsWith("(it has, by number: 0 'Walk', 1 'Grow', 2, or all)"));
-  for (const char* other : {"builtin:red", "file.ply"}) {
+  for (const char* other : {"builtin:cornell", "file.ply"}) {
     loaded.folder().write("file.ply",
                           "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
                           "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
