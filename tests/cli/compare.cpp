@@ -622,7 +622,7 @@ TEST_CASE("An error that ends compare is in its JUnit, in place of what an earli
   CHECK(has(contents(folder.path("j.xml")), "one folder takes all maps"));
   // It is never one of what is compared.
   folder.write("j.xml", "mine");
-  CHECK(run_compare(folder, {"j.xml", "test", "--junit", "j.xml"}).exit_code == 2);
+  CHECK(run_compare(folder, {"j.xml", "test/extra.exr", "--junit", "j.xml"}).exit_code == 2);
   CHECK(contents(folder.path("j.xml")) == "mine");
 }
 

@@ -208,6 +208,7 @@ void call_textures(Bytes& out) {
     out.put(bytes_per_texel(format));
   }
   out.put(scene_of_all().materials[0].color_map.used());
+  out.put(reads_border(scene_of_all().materials[0].color_map.sampler));
   out.put(texture_bytes(13, 7, TextureFormat::rgba16f, MipChain::whole));
   const std::vector<uint8_t> codes = {1, 0, 0x55, 0x7f, 0xff, 0xff, 9, 0x80};
   for (const CodeEncoding encoding : {CodeEncoding::linear, CodeEncoding::srgb})
@@ -258,7 +259,8 @@ constexpr Row kSceneRows[] = {
     {"scenes/mesh.h", "vertex_count triangle_count has_uv has_color has_tangents uv_set", call_mesh},
     {"scenes/placement.h", "world_from_object copied turned turn_about unit mirrors", call_placements},
     {"scenes/texture.h",
-     "append_texel build_mip_chain texel_value bytes_per_texel used texture_bytes float_texels_of_16_bits",
+     "append_texel build_mip_chain texel_value bytes_per_texel used texture_bytes float_texels_of_16_bits "
+     "reads_border",
      call_textures},
     {"scenes/timeline.h", "value_at direction_at rotation_at position_at set_property aim empty", call_tracks},
     {"scenes/pipeline/transparency.h", "draws_transparent",

@@ -187,7 +187,7 @@ TEST_CASE("A room is seen from inside, where its walls would hide what stands in
 TEST_CASE("An empty room is one where its walls are of three materials, mirrored or on a ground too") {
   Scene scene = model();
   add_box(scene, glm::vec3(0), kRoom, Fronts::inside);
-  Mesh& walls = scene.meshes[0];
+  const Mesh walls = scene.meshes[0];
   const Array<uint32_t> indices = walls.indices;
   const size_t third = indices.size() / 3;
   scene.instances.clear();
