@@ -313,9 +313,11 @@ class PlaneUnpacker {
     return is_linear(plane) ? kComputed * std::fabs(depth) : kWindowComputed;
   }
 
-  /// Adds positions rebuilt from a depth. A position's error is the distance to the points at the ends of the depth's
-  /// error, plus that of a transformation. The G-buffer's stage leaves the plane out (its packing_error is infinite),
-  /// since the depth is that of the snapped triangle.
+  /// Adds positions rebuilt from a depth of any kind. A position's error is the distance to the points at the ends of
+  /// the depth's error, plus that of a transformation. A position is 0 where there is no surface, and where a distance
+  /// is not above 0 or infinite. The G-buffer's stage leaves the plane out (its packing_error is infinite), since the
+  /// depth is that of the snapped triangle. Error(bad_input) for NaN at a surface, and for a camera without axes. Adds
+  /// a note.
   void add_position_of_depth(const PlaneChannelList& plane) {
     frame_.check_axes();
     const CapturedDepth kind = plane.mapped.depth;
@@ -364,8 +366,9 @@ class PlaneUnpacker {
         "depth_func greater and clear_depth 0, and take the depth as it is");
   }
 
-  /// Adds the plane depth of distances. Where a distance is not above 0, not finite, or beyond the clear depth, nothing
-  /// was drawn, and the depth is the clear depth.
+  /// Adds the plane depth of distances, along the camera's axis or from the eye. Where one is not above 0, infinite, or
+  /// at or beyond the clear depth, nothing was drawn, and the depth is the clear depth. Error(bad_input) for NaN, for a
+  /// pipeline whose depths are not d32f, and for a camera without axes. Adds a note.
   void add_linear_depth(const PlaneChannelList& plane) {
     check_float_depth(plane);
     frame_.check_axes();

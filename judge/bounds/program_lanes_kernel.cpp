@@ -302,7 +302,7 @@ class Lanes {
     return chosen(surely, x, chosen(never, y, both));
   }
 
-  /// x^s of whole s from 1 on by squaring, s 2^-52 of itself off.
+  /// x^s of whole s from 1 on, by squaring. The result is within s 2^-52 of itself; s is not checked.
   static V powered(V x, V s) {
     const DI d;
     VI left = hn::ConvertTo(d, s);
@@ -314,8 +314,9 @@ class Lanes {
       if (hn::AllTrue(d, hn::Eq(left, hn::Zero(d)))) return result;
     }
   }
-  /// The error of pow, of itself; not WGSL's, which is made of two functions. |log2 x| is taken from above, by the
-  /// exponent and the chord of log2 over a mantissa, or next to 1 by |x - 1| / min(x, 1).
+  /// Bound on the relative error of pow(x, s); not of WGSL's pow, which is made of two functions. Infinite where the
+  /// bound on the exponent's error exceeds 1. |log2 x| is taken from above, by the exponent and the chord of log2 over
+  /// a mantissa, or next to 1 by |x - 1| / min(x, 1).
   V power_error(V x, V s) const {
     if (in_.arithmetic.exact_pow) return hn::MulAdd(number(0x1p-45), s, number(0x1p-24));
     constexpr double kUlp = 0x1p-23, kLn2 = 0.69314718055994531;

@@ -97,7 +97,7 @@ class LightFit {
   const std::vector<double>& off_;
   bool codes_ = false, last_ = false, blends_ = false;
   double room_ = 0;           ///< steps that a store may be off
-  double farthest_ = kScale;  ///< steps that any pixel is off
+  double farthest_ = kScale;  ///< twice the most steps that a pixel is off, from kScale to 1e6
   std::vector<Seen> seen_;    ///< those that are not as they should be first
 };
 
