@@ -46,20 +46,23 @@ struct Account {
   Account& add(std::string_view name, const char* value, std::string_view meaning) {
     return add(name, std::string(value), meaning);
   }
-  /// Adds a list at the end, of any number of values; so do the three below.
+  /// Adds a list at the end, of any number of values.
   template <class T>
   Account& add(std::string_view name, std::span<const T> values, std::string_view meaning) {
     quantities.push_back({std::string(name), std::string(meaning), {values.begin(), values.end()}, true, {}});
     return *this;
   }
+  /// Adds a list at the end.
   template <class T>
   Account& add(std::string_view name, const std::vector<T>& values, std::string_view meaning) {
     return add(name, std::span<const T>(values), meaning);
   }
+  /// Adds a list at the end.
   template <class T, size_t n>
   Account& add(std::string_view name, const T (&values)[n], std::string_view meaning) {
     return add(name, std::span<const T>(values), meaning);
   }
+  /// Adds a list at the end.
   template <class T, size_t n>
   Account& add(std::string_view name, const std::array<T, n>& values, std::string_view meaning) {
     return add(name, std::span<const T>(values), meaning);

@@ -28,6 +28,7 @@ std::string numbers_text(std::span<const float> values) {
   return out;
 }
 
+/// Whether no value is NaN or infinite.
 bool is_finite(std::span<const float> values) {
   return std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); });
 }

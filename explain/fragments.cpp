@@ -41,6 +41,7 @@ bool boxed_elsewhere(const RoughPosition& a, const RoughPosition& b, const Rough
   return known && (beyond(px, a.x, b.x, c.x) || beyond(py, a.y, b.y, c.y));
 }
 
+/// Whether no clip coordinate is NaN or infinite.
 bool finite(const ClipVertex& v) {
   return std::isfinite(v.c[0]) && std::isfinite(v.c[1]) && std::isfinite(v.c[2]) && std::isfinite(v.c[3]);
 }

@@ -68,7 +68,7 @@ struct CoveringTriangle {
 struct PixelTriangles {
   std::array<uint64_t, kFates> count{};
   std::vector<CoveringTriangle> covering;  ///< in the order of submission
-  /// Those that lie within two pixels of the sample but do not cover it, at most eight, nearest first.
+  /// The triangles that lie within two pixels of the sample but do not cover it, at most eight, the nearest first.
   std::vector<PixelFragment> nearest;
   std::vector<PixelFragment> culled;  ///< those that would cover it if they were not culled, the first eight
 };

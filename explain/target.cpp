@@ -80,7 +80,7 @@ LightTotal lit(const ExplainedFrame& frame, const FrameLights& lights, const Sur
   return out;
 }
 
-/// As summed(); the sum that is known already where each light counts once.
+/// What summed() returns, which is known already where each light counts once.
 std::array<float, 4> sum_of(const LightTotal& total, LightTimes times) {
   return times.times.empty() ? total.sum : summed(total, times);
 }

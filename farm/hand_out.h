@@ -39,8 +39,8 @@ class HandOut {
   /// Notes that the task's result was passed to SharedTasks::take. This makes room in the window for another task, and
   /// frees tasks that waited for this one alone.
   void taken(int task);
-  /// As taken(), but the tasks that are after this one, directly or through others, are left out of the run. Returns
-  /// each of them, paired with the task that it is after and because of which it is left out.
+  /// Does what taken() does, but leaves the tasks that are after this one, directly or through others, out of the run.
+  /// Returns each of them, paired with the task that it is after and because of which it is left out.
   std::vector<std::pair<int, int>> taken_and_closed(int task);
   /// Frees the tasks that this rank alone holds, for other ranks, and lets the rank hold none from now on.
   void lose(int rank);

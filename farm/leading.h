@@ -38,7 +38,7 @@ class Leading {
   /// Waits for the result that is to be passed to SharedTasks::take next; nothing after the last. Where the run has
   /// failed and the next result is not here, throws the failure.
   std::optional<Result> next_result();
-  /// To be called after SharedTasks::take. Frees the tasks that are after this one; where SharedTasks::opens says no,
+  /// Called after SharedTasks::take. Frees the tasks that are after this one; where SharedTasks::opens says no,
   /// leaves them out and calls SharedTasks::leave_out for each.
   void taken(int task);
 

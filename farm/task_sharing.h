@@ -64,14 +64,14 @@ struct SharedTasks {
   /// all of it.
   std::function<std::span<const uint8_t>(std::span<const uint8_t> result)> same_part;
 
-  /// On rank 0, on the thread that called share_tasks(), once for each task, in the order of their numbers. An
+  /// Called on rank 0, on the thread that called share_tasks(), once for each task, in the order of their numbers. An
   /// exception of it ends the run on all ranks and reaches the caller there.
   std::function<void(int task, std::vector<uint8_t> result)> take;
   /// Takes results in the order that they come in instead: `take` is called once for each task, in any order.
   bool in_any_order = false;
 
-  /// After take(): whether tasks that are after this one are to be done. If not, they, and those that are after them,
-  /// are left out: neither run nor taken. Not set: they are.
+  /// Called after take: whether tasks that are after this one are to be done. If not, they, and those that are after
+  /// them, are left out: neither run nor taken. Not set: they are.
   std::function<bool(int task)> opens;
   /// Called on rank 0, on the thread that called share_tasks(), for each task that is left out. `because` is the task
   /// that it is after and because of which it is left out.

@@ -34,7 +34,7 @@ HWY_INLINE Three chosen(M condition, const Three& x, const Three& y) {
 HWY_INLINE Three negated(const Three& x) { return {hn::Neg(x.value), hn::Neg(x.high), hn::Neg(x.low)}; }
 HWY_INLINE V size_of(const Three& x) { return hn::Max(hn::Abs(x.low), hn::Abs(x.high)); }
 
-/// Where the results of steps lie, and what rounds them.
+/// Runs steps over lanes: knows where their results lie, and what rounds them.
 class Lanes {
  public:
   explicit Lanes(const ProgramLanes& in) : in_(in), to_nearest_(in.arithmetic.roundoff <= 0x1p-24) {}
@@ -377,7 +377,7 @@ class Lanes {
     }
   }
 
-  /// Of each vector of lanes.
+  /// Stores f(i) as the step's result for each vector of lanes, which begins at lane i.
   template <class F>
   void each(const ProgramStep& step, F f) const {
     for (size_t i = 0; i < in_.count; i += hn::Lanes(D())) store(step, i, f(i));

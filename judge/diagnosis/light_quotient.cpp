@@ -64,8 +64,9 @@ std::vector<double> solved(std::vector<double> a, std::vector<double> b) {
   return b;
 }
 
-/// As solved(), of changes of at least -1: no light's term turns round. Murty's principal pivoting: of the changes that
-/// are below, and of those held at -1 that would grow, the last one changes its side, until there is none.
+/// Solves what solved() does, by changes of at least -1: no light's term turns round. Murty's principal pivoting: of
+/// the changes that are below, and of those held at -1 that would grow, the last one changes its side, until there is
+/// none.
 std::vector<double> solved_with_light(const std::vector<double>& a, const std::vector<double>& b) {
   constexpr double kNoLight = -1;
   constexpr int kMostPivots = 1000;

@@ -23,7 +23,7 @@ double constant_of(const ProgramNode& node) {
   return node.type == programs::Type::i32 ? double(int32_t(node.bits)) : double(node.bits);
 }
 
-/// As captured_surface.h has it, without errors.
+/// The surface as captured_surface.h has it, without errors.
 ShadedSurface shaded(const PlainSurface& p) {
   ShadedSurface s;
   for (size_t k = 0; k < 3; ++k) {

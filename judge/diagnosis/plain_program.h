@@ -46,8 +46,8 @@ class PlainProgram {
   programs::Program program_;
   Values first_;  ///< constants, and what holds for the frame
   std::vector<programs::NodeId> of_frame_, of_surface_, of_light_, of_sum_;
-  /// Of of_light_, by type, what lights of the type need: choices that go by the type leave the rest out. All of a type
-  /// that the scene does not have.
+  /// The nodes of of_light_ that lights of each type need: choices that go by the type leave the rest out. All of a
+  /// type that the scene does not have.
   std::array<std::vector<programs::NodeId>, std::size(kLightTypes)> of_type_;
   std::vector<std::pair<programs::NodeId, SurfaceField>> surface_inputs_;
   std::vector<std::pair<programs::NodeId, LightField>> light_inputs_;

@@ -33,7 +33,7 @@ struct PixelState {
   PixelClass doubt = PixelClass::branch;
   int lights_low = 0, lights_high = 0;  ///< fragments of lights in range and facing so far: light.count
 
-  /// One more draw, which leaves `t` by the likely rule: with that draw's own chance of another rounding.
+  /// Notes one more draw, which leaves `t` by the likely rule, with that draw's own chance of another rounding.
   void draw_likely(const Texel& t, const std::array<Range, 4>& source);
   /// What the likely rule leaves after all draws, with the chances of all of them.
   LegalTexel likely_channel(size_t k) const;
