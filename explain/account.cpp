@@ -13,12 +13,14 @@
 namespace trueshade {
 namespace {
 
+/// The fewest digits that give a number back.
 template <class Number>
 std::string digits_of(Number value) {
   char digits[64];
   return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
 }
 
+/// All digits of a whole number.
 std::string digits_of(__int128 value) {
   const bool negative = value < 0;
   std::string digits;
@@ -30,6 +32,7 @@ std::string digits_of(__int128 value) {
   return digits;
 }
 
+/// A value as account_json() has it.
 std::string value_json(const AccountValue& value) {
   constexpr __int128 kExact = __int128(1) << 53;
   const std::string text = value_text(value);
@@ -42,6 +45,7 @@ std::string value_json(const AccountValue& value) {
   return std::holds_alternative<std::string>(value) ? json_string(text) : text;
 }
 
+/// The texts of values, with a comma and a space between two.
 std::string joined(const std::vector<AccountValue>& values, std::string (*text)(const AccountValue&)) {
   std::string all;
   for (const AccountValue& value : values) {
@@ -51,6 +55,7 @@ std::string joined(const std::vector<AccountValue>& values, std::string (*text)(
   return all;
 }
 
+/// Appends the lines of a step that is so deep in the account, and those of its smaller steps.
 void write(const Account& account, size_t depth, std::string& out) {
   constexpr size_t kName = 11, kValues = 42;  // characters; a longer one pushes the next column
   const std::string indent(2 * depth, ' ');

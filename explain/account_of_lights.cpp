@@ -49,6 +49,8 @@ std::vector<size_t> listed(const LightTotal& total, Detail detail) {
   return out;
 }
 
+/// Adds how many lights add something, and for each other fate the indices of the lights that have it, if there are
+/// any.
 void add_lists(const LightTotal& total, Account& to) {
   std::vector<int64_t> by_fate[kLightFates];
   for (size_t i = 0; i < total.lights.size(); ++i) by_fate[size_t(total.lights[i].fate)].push_back(int64_t(i));

@@ -21,12 +21,14 @@ float float_of(uint32_t bits) { return std::bit_cast<float>(bits); }
 /// A number in words; NaN without a sign, since the renderer leaves its sign open.
 std::string number_text(float value) { return std::isnan(value) ? "NaN" : value_text(value); }
 
+/// Numbers with a comma and a space between two.
 std::string numbers_text(std::span<const float> values) {
   std::string out;
   for (const float value : values) out += (out.empty() ? "" : ", ") + number_text(value);
   return out;
 }
 
+/// Whether no value is NaN or infinite.
 bool is_finite(std::span<const float> values) {
   return std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); });
 }
@@ -103,10 +105,13 @@ struct Loss {
   std::string line, operation;  ///< of a program's step
 };
 
+/// Finds where the light of one surface stops being finite. Borrows the frame and the lights.
 class LossFinder {
  public:
   LossFinder(const ExplainedFrame& frame, const LightTotal& total) : frame_(frame), total_(total) {}
 
+  /// The first loss of start(), of light() of a light, of the sum, and of finish(), in this order; nothing where all of
+  /// them are finite, and where the surface is unlit.
   std::optional<Loss> run() const {
     const ProgramAtSurface& at = *total_.program;
     if (at.is_unlit()) return std::nullopt;
@@ -166,6 +171,8 @@ std::optional<Loss> in_target(const ExplainedFrame& frame, const PixelHistory& h
   return std::nullopt;
 }
 
+/// The first loss at the visible surface, the tied ones, the glass and the target, in this order; nothing where all is
+/// finite.
 std::optional<Loss> found(const ExplainedFrame& frame, const PixelHistory& history) {
   std::vector<const LightTotal*> totals;
   if (history.lit.covered) totals.push_back(&history.lit.visible);

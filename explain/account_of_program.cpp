@@ -27,6 +27,7 @@ std::string rounding_text(const std::vector<double>& rounding) {
   return out;
 }
 
+/// Adds a part with one step: its numbers for programs, and a line of columns for people.
 void add_step(const ProgramStep& step, size_t number, Account& to) {
   constexpr size_t kValues = 6, kRounding = 42, kExpression = 64;  // columns
   Account& part = to.part("operation", step.expression);

@@ -4,6 +4,7 @@
 namespace trueshade {
 namespace {
 
+/// Adds the planes that the light model reads.
 void add_planes(const SurfacePlanes& planes, const LightModel& model, Account& to) {
   to.add("position", planes.position, "world, scene units");
   to.add("normal", planes.normal, "world");
@@ -17,6 +18,7 @@ void add_planes(const SurfacePlanes& planes, const LightModel& model, Account& t
     to.add("emission", planes.emission, "emission R, G, B and the share of ambient light that arrives");
 }
 
+/// The planes that every pipeline has, each with its format.
 std::string format_names(const GBufferState& planes) {
   const auto name = [](Format format) { return std::string(info(format).name); };
   return "position " + (planes.position_from_depth ? "from depth" : name(planes.position.format)) + ", normal " +

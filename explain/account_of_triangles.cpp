@@ -20,12 +20,15 @@ std::vector<int64_t> window_coordinates(const PixelFragment& f, WindowPixel pixe
   return out;
 }
 
+/// Whether the triangle's polygon is not the triangle as submitted.
 bool was_clipped(const PixelFragment& f) {
   for (int i = 0; i < f.fan.polygon.corners; ++i)
     if (f.fan.polygon.at(i).kind != 0) return true;
   return f.fan.polygon.corners != 3;
 }
 
+/// Adds the clip positions, how many pieces clipping left, and the window coordinates and depths of the piece that
+/// counts.
 void add_corners(const PixelFragment& f, WindowPixel pixel, Account& to) {
   for (size_t k = 0; k < 3; ++k)
     to.add("clip" + std::to_string(k), f.clip[k].c, "clip position x, y, z, w of corner " + std::to_string(k));
@@ -38,6 +41,7 @@ void add_corners(const PixelFragment& f, WindowPixel pixel, Account& to) {
   to.add("z_i", std::array{z[f.edges.order[0]], z[f.edges.order[1]], z[f.edges.order[2]]}, "their window depths");
 }
 
+/// Adds the edge functions, the facing, the polygon offset where it is not 0, and the depths.
 void add_edges(const ExplainedFrame& frame, const PixelFragment& f, Account& to) {
   to.add("E", f.edges.e,
          "edge functions at the sample: twice an area, 1/65536 pixel^2; covered: all above 0, or 0 if owned");
@@ -50,6 +54,7 @@ void add_edges(const ExplainedFrame& frame, const PixelFragment& f, Account& to)
   to.add("depth", f.depth, "as the depth format stores it");
 }
 
+/// Adds what the depth test and, where it was asked, the alpha test made of a fragment.
 void add_outcome(const ExplainedFrame& frame, const PixelFragment& f, const DepthOutcome& outcome, Account& to) {
   to.add("there", outcome.there, "the depth it is compared with");
   to.add("passes", outcome.passes,
@@ -60,6 +65,7 @@ void add_outcome(const ExplainedFrame& frame, const PixelFragment& f, const Dept
   to.add("cutoff", frame.scene.materials[material].alpha_cutoff, "fragments with less alpha are not drawn");
 }
 
+/// Adds how many triangles had each fate; fates of none are left out, but for `covers`.
 void add_fates(const PixelTriangles& triangles, Account& to) {
   struct Row {
     Fate fate;
@@ -82,6 +88,7 @@ bool holds(const std::vector<size_t>& indices, size_t index) {
   return std::find(indices.begin(), indices.end(), index) != indices.end();
 }
 
+/// What became of a covering triangle, in words.
 std::string outcome_words(const PixelHistory& history, Surfaces which, size_t index) {
   const bool transparent = which == Surfaces::transparent;
   const DepthOutcome& outcome = (transparent ? history.of_transparent : history.of_opaque)[index];
@@ -109,6 +116,7 @@ std::vector<size_t> listed(const PixelHistory& history, Surfaces which, Detail d
   return out;
 }
 
+/// Adds a part for a triangle that is culled or lies beside the sample.
 void add_near(const ExplainedFrame& frame, const PixelFragment& f, const std::string& words, Account& to) {
   Account& part = to.part("near_triangle", name_of(frame, f.instance, f.triangle) + ": " + words);
   part.add("object", int64_t(f.instance), "").add("index", int64_t(f.triangle), "");

@@ -15,13 +15,14 @@ namespace {
 
 constexpr size_t kMostLights = 256;  // the strongest, which are left out or doubled one after the other
 
+/// Whether two pixels have the same bits.
 bool is_same(const StoredPixel& a, const StoredPixel& b) {
   for (size_t c = 0; c < 4; ++c)
     if (std::bit_cast<uint32_t>(a[c]) != std::bit_cast<uint32_t>(b[c])) return false;
   return true;
 }
 
-/// A linear value, clamped to [0, 1], encoded as sRGB (IEC 61966-2-1).
+/// A linear value, clamped to [0, 1], encoded as sRGB (IEC 61966-2-1). NaN stays NaN.
 float srgb_of(float linear) {
   const double x = double(std::clamp(linear, 0.0f, 1.0f));
   return float(x <= 0.0031308 ? 12.92 * x : 1.055 * power(x, 1.0 / 2.4) - 0.055);
@@ -52,15 +53,18 @@ class Search {
   }
 
  private:
+  /// Adds a candidate, unless it stores what the frame stores, bit for bit.
   void add(std::string what, const StoredPixel& stored) {
     if (is_same(stored, history_.stored)) return;
     found_.push_back({std::move(what), stored, stored_difference(frame_.target, stored, given_)});
   }
 
+  /// What the target holds once these surfaces are lit and drawn.
   StoredPixel drawn(const PixelSurfaces& surfaces) const {
     return drawn_target(frame_, lit_surfaces(frame_, surfaces, history_.lit.geometry));
   }
 
+  /// Adds what is stored where this fragment is the visible surface, with no tied one beside it.
   void try_surface(const PixelFragment& fragment, const std::string& how) {
     PixelSurfaces surfaces = surfaces_;
     surfaces.covered = true;
@@ -111,7 +115,8 @@ class Search {
     with("no light counted");
   }
 
-  /// Lights the same surfaces by a changed pipeline; for changes of the light model and of lights' extents.
+  /// Lights the same surfaces by a changed pipeline, and adds what is stored then; for changes of the light model and
+  /// of lights' extents. Adds nothing where `change` changes nothing.
   void try_model(const std::string& what, const std::function<void(Pipeline&)>& change) {
     Pipeline changed = frame_.pipeline;
     change(changed);
@@ -139,7 +144,8 @@ class Search {
     try_model("falloff inverse_square", [](Pipeline& p) { p.light_model.falloff = Falloff::inverse_square; });
   }
 
-  /// Draws the whole pixel again by another pipeline, at the frame's size, viewport and target format.
+  /// Draws the whole pixel again by another pipeline, at the frame's size, viewport and target format, and adds what is
+  /// stored then. Adds nothing where that pipeline is the frame's own, or stores the same.
   void try_pipeline(const std::string& what, Pipeline changed) {
     changed.width = frame_.pipeline.width, changed.height = frame_.pipeline.height;
     changed.target = frame_.pipeline.target;
@@ -167,8 +173,8 @@ class Search {
     try_pipeline(nearest ? "halves rounded toward zero" : "halves rounded to nearest", changed);
   }
 
-  /// Values of other pixels: the mirrored ones, and the two within three pixels of this one that are nearest to
-  /// `given`.
+  /// Adds the values of other pixels: of the mirrored ones, and of the two within three pixels of this one whose values
+  /// are nearest to `given`.
   void try_places() {
     constexpr int kRadius = 3;
     constexpr size_t kMostBeside = 2;
@@ -193,8 +199,8 @@ class Search {
     found_.resize(std::min(found_.size(), before + kMostBeside));
   }
 
-  /// Stores of changed values, or by another rule. The values are the sum of the lights or, where lights or transparent
-  /// surfaces are blended, what a shader reads from the target.
+  /// Adds stores of changed values, or by another rule. The values are the sum of the lights or, where lights or
+  /// transparent surfaces are blended, what a shader reads from the target.
   void try_stores() {
     const FormatInfo layout = info(frame_.target.format);
     const bool sums = !blends_lights(frame_.pipeline.strategy) && surfaces_.covered && surfaces_.glass.empty();

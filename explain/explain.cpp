@@ -29,6 +29,7 @@ bool passes_depth(DepthFunc func, float z, float there) {
   return false;
 }
 
+/// Tests a fragment against the stored depth `there`, then, where it passes, its alpha against the material's cutoff.
 DepthOutcome tested(const ExplainedFrame& frame, const CoveringTriangle& fragment, WindowPixel pixel, DepthFunc func,
                     float there) {
   DepthOutcome out{there, passes_depth(func, fragment.depth, there), std::nullopt, false};
@@ -39,6 +40,8 @@ DepthOutcome tested(const ExplainedFrame& frame, const CoveringTriangle& fragmen
   return out;
 }
 
+/// Draws the opaque fragments in order: sets out.of_opaque, out.visible and out.depth, which is the clear depth where
+/// none is drawn.
 void find_visible(const ExplainedFrame& frame, PixelHistory& out) {
   const GeometryState& state = frame.pipeline.geometry;
   out.depth = frame.view.window.depth.stored(state.clear_depth);
@@ -60,6 +63,8 @@ void find_tied(const ExplainedFrame& frame, const GBufferState& planes, PixelHis
     out.tied.push_back(surface_of(frame, fragment_of(frame, out.opaque.covering[i], out.pixel), planes, out.pixel));
 }
 
+/// Tests the transparent fragments against the opaque depth: sets out.of_transparent and, of those that are drawn,
+/// out.glass_at and out.glass.
 void find_glass(const ExplainedFrame& frame, PixelHistory& out) {
   Pipeline forward = frame.pipeline;
   forward.strategy = Strategy::forward_loop;
@@ -73,7 +78,8 @@ void find_glass(const ExplainedFrame& frame, PixelHistory& out) {
   }
 }
 
-/// Blends the transparent fragments into the albedo that lights read of the visible surface, and records the draws.
+/// Blends the transparent fragments into out.surface.read.albedo, which lights read, and records the draws in
+/// out.albedo_draws.
 void tint_albedo(const ExplainedFrame& frame, const GBufferState& planes, PixelHistory& out) {
   const BlendTarget plane{planes.albedo.format, frame.pipeline.profile, planes.half_round};
   StoredPixel stored = stored_alone(plane, out.surface.computed.albedo);

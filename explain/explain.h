@@ -34,15 +34,16 @@ struct PixelHistory {
   StoredPixel stored{};           ///< what the target holds at last
 };
 
-/// Follows one pixel through the frame; (x, y) counts from the top left of the picture. Error(usage) for a pixel that
-/// is not in the picture. The stored pixel is what render_frame() stores, bit for bit (tests/explain).
+/// Follows one pixel through the frame; (x, y) counts from the top left of the picture. Asks every triangle of the
+/// scene, and every light. Error(usage) for a pixel that is not in the picture. The stored pixel is what render_frame()
+/// stores, bit for bit (tests/explain).
 PixelHistory history_of(const ExplainedFrame& frame, int x, int y);
 
-/// The surfaces of a history as lit_surfaces() takes them: the visible one, tied ones, and glass blended after the
-/// lights.
+/// The surfaces of a history as lit_surfaces() takes them: the visible one, tied ones, and glass, the latter only where
+/// it is blended after the lights.
 PixelSurfaces surfaces_to_light(const ExplainedFrame& frame, const PixelHistory& history);
 
-/// A stored pixel as its format has it: codes, or floats.
+/// A stored pixel as its format has it: whole codes, or floats, for each channel that the format has.
 std::vector<AccountValue> values_in_format(Format format, const StoredPixel& stored);
 
 /// How much of a history its account holds.

@@ -9,12 +9,14 @@
 namespace trueshade {
 namespace {
 
+/// The pipeline without post chain and view, with the planes that its light program reads.
 Pipeline of_target(Pipeline pipeline) {
   pipeline.post = {};
   pipeline.view = ImageView::lit;
   return with_planes_of_program(pipeline);
 }
 
+/// The lights' rows, bounded by the extents that light geometry is drawn with.
 LightTable bounded_table(const Scene& scene, const Pipeline& pipeline, bool draws_meshes) {
   LightTable table = make_light_table(scene.lights, pipeline.light_model, scene.camera);
   bound_by_extents(table, scene.lights, pipeline.light_volumes, draws_meshes);

@@ -18,7 +18,7 @@ struct FrameLights {
   bool takes_albedo_alpha;  ///< where the program does not say what alpha is
 };
 
-/// What every pixel's explanation reads of a frame, made once. Borrows the scene. `pipeline` is without post chain and
+/// What every pixel's explanation reads of a frame, made once. `pipeline` is without post chain and
 /// view: what is explained is the target.
 struct ExplainedFrame {
   const Scene& scene;
@@ -33,6 +33,7 @@ struct ExplainedFrame {
   BlendTarget target;
   TransparencyMode transparency;  ///< none too where the scene has no transparent surface
 
+  /// Borrows the scene. Makes the view of all instances and both tables of the lights.
   ExplainedFrame(const Scene& of_scene, const Pipeline& of_pipeline);
 };
 

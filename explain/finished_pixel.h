@@ -13,8 +13,8 @@ namespace trueshade {
 ///   x, y:     of the picture, from the top left
 void add_finished_pixel(const Scene& scene, const Pipeline& pipeline, int x, int y, Account& account);
 
-/// account_text(), and a line with the stored pixel: it is among the first lines, where people look for it, and the
-/// last, where programs do.
+/// account_text(), and a last line with the stored pixel, where programs look for it; people find it among the first
+/// lines. The last quantity of the account is the stored pixel.
 std::string explanation_text(const Account& account);
 
 }  // namespace trueshade

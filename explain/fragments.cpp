@@ -41,6 +41,7 @@ bool boxed_elsewhere(const RoughPosition& a, const RoughPosition& b, const Rough
   return known && (beyond(px, a.x, b.x, c.x) || beyond(py, a.y, b.y, c.y));
 }
 
+/// Whether no clip coordinate is NaN or infinite.
 bool finite(const ClipVertex& v) {
   return std::isfinite(v.c[0]) && std::isfinite(v.c[1]) && std::isfinite(v.c[2]) && std::isfinite(v.c[3]);
 }
@@ -87,6 +88,7 @@ double offset_unit(const DepthRule& rule, const DepthPlane& plane) {
   return std::ldexp(1.0, exponent - 23);
 }
 
+/// Sets plane_depth, offset and depth of a fragment whose piece and edges are found.
 void find_depth(const WindowTransform& window, PixelFragment& out) {
   const EdgeValues& at = out.edges;
   const double* const z = out.fan.piece[out.piece].triangle.z;
@@ -103,7 +105,8 @@ void find_depth(const WindowTransform& window, PixelFragment& out) {
   out.depth = rule.stored(float(out.plane_depth));
 }
 
-/// Keeps a triangle beside the sample if it is among the nearest.
+/// Keeps a triangle beside the sample in `nearest` if it is within kSlack of the sample and among the kMostKept
+/// nearest.
 void keep_nearest(PixelFragment&& fragment, std::vector<PixelFragment>& nearest) {
   if (!(fragment.distance <= kSlack)) return;
   const auto place = std::upper_bound(nearest.begin(), nearest.end(), fragment.distance,
@@ -113,7 +116,7 @@ void keep_nearest(PixelFragment&& fragment, std::vector<PixelFragment>& nearest)
   if (nearest.size() > kMostKept) nearest.pop_back();
 }
 
-/// Keeps a culled triangle if it would cover the sample.
+/// Keeps a culled triangle if it would cover the sample and fewer than kMostKept are kept.
 void keep_culled(const ExplainedFrame& frame, const PixelFragment& fragment, WindowPixel pixel, PixelTriangles& out) {
   if (out.culled.size() >= kMostKept) return;
   GeometryState any_side = frame.view.faces.of(fragment.instance);
@@ -124,6 +127,7 @@ void keep_culled(const ExplainedFrame& frame, const PixelFragment& fragment, Win
   out.culled.push_back(std::move(drawn));
 }
 
+/// Whether an instance is one of those surfaces.
 bool is_asked(const ExplainedFrame& frame, const Instance& instance, Surfaces which) {
   const bool apart =
       frame.transparency != TransparencyMode::none && frame.scene.materials[instance.material].transparent;

@@ -33,11 +33,15 @@ struct EdgeValues {
   std::array<bool, 3> owns;  ///< whether edge i owns samples that lie on it
   __int128 area;
 
+  /// Whether the triangle covers the sample: each edge function is above 0, or 0 at an edge that owns samples on it.
   bool covers() const;
 };
+
+/// The edge functions of a window triangle whose coordinates are relative to the sample.
+///   upper_left: the window's origin, which decides what edges own
 EdgeValues edge_values(const WindowTriangle& triangle, bool upper_left);
 
-/// How far a window triangle, relative to the sample, is from the sample: pixels, 0 inside.
+/// How far a window triangle, whose coordinates are relative to the sample, is from the sample: pixels, 0 inside.
 double distance_to(const WindowTriangle& triangle);
 
 /// One triangle near a pixel.
@@ -64,27 +68,32 @@ struct CoveringTriangle {
 struct PixelTriangles {
   std::array<uint64_t, kFates> count{};
   std::vector<CoveringTriangle> covering;  ///< in the order of submission
-  /// Those that lie within two pixels of the sample but do not cover it, at most eight, nearest first.
+  /// The triangles that lie within two pixels of the sample but do not cover it, at most eight, the nearest first.
   std::vector<PixelFragment> nearest;
   std::vector<PixelFragment> culled;  ///< those that would cover it if they were not culled, the first eight
 };
 
+/// Which surfaces: opaque, or transparent where the frame draws these apart.
+enum class Surfaces : uint8_t { opaque, transparent };
+
 /// What became of each triangle of the opaque instances, or of the transparent ones, at a pixel. Where the frame draws
 /// transparent surfaces like the others, all instances are opaque. Time grows with the number of triangles.
-enum class Surfaces : uint8_t { opaque, transparent };
 PixelTriangles triangles_at(const ExplainedFrame& frame, WindowPixel pixel, Surfaces which);
 
-/// A triangle's fragment, with all numbers.
+/// A triangle's fragment, with all numbers; those that its fate leaves open are at their defaults.
 PixelFragment fragment_of(const ExplainedFrame& frame, uint32_t instance, uint32_t triangle, WindowPixel pixel);
+/// The fragment of a triangle that covers the sample.
 inline PixelFragment fragment_of(const ExplainedFrame& frame, const CoveringTriangle& of, WindowPixel pixel) {
   return fragment_of(frame, of.instance, of.triangle, pixel);
 }
 
-/// What became of a triangle with these corners, drawn with a state, and its fragment.
+/// What became of a triangle with these corners, drawn with a state, and its fragment; `instance` and `triangle` are
+/// left 0. A pixel outside the window's bounds is beside every triangle.
 PixelFragment fragment_at(const ClipVertex clip[3], const WindowTransform& window, const GeometryState& state,
                           WindowPixel pixel);
 
-/// Whether a triangle's box surely leaves the sample out: a quick answer; false where it takes more to tell.
+/// Whether a triangle's box surely leaves the sample out: a quick answer; false where it takes more to tell, as of
+/// corners behind the eye and of such that are not finite.
 bool surely_elsewhere(const ClipVertex clip[3], const WindowTransform& window, WindowPixel pixel);
 
 /// The clip position of a point: docs/arithmetic.md section 2. `rows` has four rows of four.

@@ -24,6 +24,7 @@ std::array<double, 2> smooth_slope(const std::array<__int128, 3>& edge, const Co
   return {(g[1] - w.smooth[0] * sum) * r, (g[2] - w.smooth[1] * sum) * r};
 }
 
+/// The same of the weights without perspective.
 std::array<double, 2> linear_slope(const std::array<__int128, 3>& edge, const CornerWeights& w) {
   const double r = 1.0 / w.area;
   return {double(edge[1]) * r, double(edge[2]) * r};

@@ -15,14 +15,18 @@ struct CornerWeights {
   std::array<double, 2> smooth{}, linear{};
   std::array<double, 2> smooth_x{}, smooth_y{}, linear_x{}, linear_y{};
 };
+
+/// The weights at the sample of a fragment that has a piece, be the sample beside it.
 CornerWeights corner_weights(const PixelFragment& fragment);
 
-/// An attribute at the sample, from its values at the corners as submitted.
+/// An attribute at the sample, from its values at the corners as submitted. It is within the range of the values at the
+/// corners of the fragment's piece.
 ///   provoking: the corner whose value a flat attribute takes
 float attribute_at(const PixelFragment& fragment, const CornerWeights& weights, const WindowTransform& window,
                    Interpolation how, const std::array<float, 3>& value, int provoking);
 
-/// Texture coordinates at the sample, from u and v at the corners as submitted, with their derivatives.
+/// Texture coordinates at the sample, from u and v at the corners as submitted, with their derivatives by a pixel to
+/// the right and up, which are 0 where they are flat. Not moved into [0, 1].
 TexturePoint texture_point(const PixelFragment& fragment, const CornerWeights& weights, const WindowTransform& window,
                            Interpolation how, const std::array<float, 3>& u, const std::array<float, 3>& v,
                            int provoking);

@@ -20,6 +20,8 @@ enum class LightFate : uint8_t {
   gives_nothing,  ///< it adds nothing
 };
 inline constexpr size_t kLightFates = 7;
+
+/// A fate in words, as the account has it: `out of reach`.
 std::string_view text(LightFate fate);
 
 /// What a light adds to a pixel: docs/arithmetic.md section 8 or docs/light_programs.md.
@@ -29,17 +31,19 @@ struct LightAtPixel {
   std::array<float, 3> term{};  ///< R, G, B; 0 where it is out of reach
 };
 
-/// Whether a light reaches the surface: it has no place, or the squared distance is below the row's cut2. Sets at.d for
-/// a light that has a place.
+/// Whether a light reaches the surface: it has no place, or the squared distance is below the row's cut2 (never where
+/// the distance is NaN). Sets at.d for a light that has a place, be it in reach or not.
 bool in_reach(const LightRow& light, const SurfacePlanes& surface, LightAtPixel& at);
 
-/// The fate of a light that adds nothing although it is in reach: any of the last four.
+/// The fate of a light that adds nothing although it is in reach: one of the last four, the first that applies in the
+/// order that LightFate states.
 LightFate fate_without_light(const Light& light, const SurfacePlanes& surface);
 
 /// The measure by which lights are ordered: |R| + |G| + |B| of the light's term, or infinity where this sum is NaN.
 float strength(const LightAtPixel& light);
 
-/// Whether the surface lies within the light's extent, so that the light's draw keeps the pixel.
+/// Whether the surface lies within the light's extent, so that the light's draw keeps the pixel. True where the extent
+/// has no end, false of a distance that is NaN.
 bool inside_extent(const LightRow& light, const SurfacePlanes& surface);
 
 }  // namespace trueshade

@@ -12,7 +12,7 @@ using programs::Op;
 using programs::ProgramNode;
 using programs::Rate;
 
-/// What a surface has of a field of the interface's `Surface`.
+/// The bits of a surface's value of a field of the interface's `Surface`.
 uint32_t of_surface(std::string_view name, const SurfacePlanes& s, WindowPixel pixel) {
   const size_t component = std::string_view("xyzw").find(name.back());
   const size_t c = component == std::string_view::npos ? 0 : component;
@@ -54,6 +54,8 @@ ProgramAtSurface::ProgramAtSurface(std::shared_ptr<const ProgramFrame> frame, co
   });
 }
 
+/// Sets the bits of the nodes of these rates, in the order of the nodes, whose operands have theirs already.
+///   input: gives the bits of an input by its number
 template <class Input>
 void ProgramAtSurface::compute(std::initializer_list<Rate> rates, NodeBits& bits, Input input) const {
   const std::vector<ProgramNode>& nodes = program().nodes;

@@ -19,14 +19,17 @@ using NodeBits = std::vector<uint32_t>;
 /// The inputs of lights, view and parameters are the frame's.
 class ProgramAtSurface {
  public:
+  /// Computes what depends on the surface alone. `pixel`: for the inputs surface.pixel_x and surface.pixel_y.
   ProgramAtSurface(std::shared_ptr<const ProgramFrame> frame, const SurfacePlanes& surface, WindowPixel pixel);
 
+  /// The program, which lives as long as this object.
   const programs::Program& program() const { return frame_->executable().program; }
-  bool is_unlit() const { return unlit_; }  ///< the surface shows its albedo, and no function is asked
+  /// Whether the surface shows its albedo, and no function of the program is asked.
+  bool is_unlit() const { return unlit_; }
 
-  /// All nodes but those that wait for the sum, for a light by its index in the scene; all but those of lights, for
-  /// the sum of the lights. What is left out is 0.
+  /// The values of all nodes for a light by its index in the scene; nodes that wait for the sum are 0.
   NodeBits at_light(size_t light) const;
+  /// The values of all nodes for the sum of the lights; nodes that depend on a light are 0.
   NodeBits at_sum(const std::array<float, 3>& sum) const;
 
   /// Outputs, from the first on, as floats.
@@ -36,6 +39,7 @@ class ProgramAtSurface {
     for (size_t k = 0; k < n; ++k) out[k] = as_float(bits[program().output[size_t(first) + k]]);
     return out;
   }
+  /// What start() returns: R, G, B that the sum of the lights starts from.
   std::array<float, 3> start() const { return output<3>(of_surface_, programs::kStartOutput); }
 
  private:

@@ -31,7 +31,8 @@ struct ProgramTrace {
 /// holds a bounded number of operations.
 enum class StepSize : uint8_t { instruction, expression };
 
-/// The steps that values of nodes come from. Of a choice only the side that was taken is followed: the other is `...`.
+/// The steps that the values of the nodes `wanted` come from. Of a choice only the side that was taken is followed: the
+/// other is `...`. No steps where the nodes are inputs and constants alone.
 ///   bits: of all nodes; `wanted`: at most four
 ProgramTrace trace_of(const programs::Program& program, const NodeBits& bits, std::span<const programs::NodeId> wanted,
                       StepSize size = StepSize::instruction);

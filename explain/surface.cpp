@@ -82,10 +82,12 @@ struct Interpolator {
   }
 };
 
+/// An interpolator, which borrows the fragment and the weights, by the pipeline's provoking corner.
 Interpolator interpolator(const ExplainedFrame& frame, const PixelFragment& f, const CornerWeights& weights) {
   return {f, weights, frame.view.window, frame.pipeline.geometry.provoking == Provoking::last ? 2 : 0};
 }
 
+/// The maps of the fragment's material; null where no material of the scene has any.
 const MaterialMaps* maps_of_fragment(const ExplainedFrame& frame, const PixelFragment& f) {
   const SceneMaps& maps = frame.view.maps;
   return maps.textured() ? &maps.material[frame.scene.instances[f.instance].material] : nullptr;
@@ -110,6 +112,7 @@ std::vector<MapLookup> look_maps_up(const MaterialMaps& maps, const TriangleCorn
   return out;
 }
 
+/// The texel that a map gave; null where that map was not looked up.
 const std::array<float, 4>* texel_of(const std::vector<MapLookup>& lookups, std::string_view map) {
   const auto found = std::find_if(lookups.begin(), lookups.end(), [&](const MapLookup& l) { return l.map == map; });
   return found == lookups.end() ? nullptr : &found->texel;
@@ -180,6 +183,7 @@ std::array<float, n> read_from_plane(const std::array<float, n>& values, Format 
   return out;
 }
 
+/// What lights read of the computed values once the planes have stored them.
 SurfacePlanes read_planes(const ExplainedFrame& frame, const SurfacePlanes& computed, const GBufferState& planes) {
   const auto read = [&](const auto& values, Format format) {
     return read_from_plane(values, format, frame, planes.half_round);
@@ -202,7 +206,8 @@ SurfacePlanes read_planes(const ExplainedFrame& frame, const SurfacePlanes& comp
   return out;
 }
 
-/// docs/arithmetic.md section 13: the triangle's frame, or that of vertices' tangents.
+/// The frame that a normal map is read in: the triangle's, or that of vertices' tangents (docs/arithmetic.md section
+/// 13). Sets out.tangent for the latter.
 MapTangents frame_of(const ExplainedFrame& frame, const PixelFragment& f, const TriangleCorners& corners,
                      const Interpolator& at, size_t uv_set, PixelSurface& out) {
   if (!corners.mesh.has_tangents()) {
@@ -225,7 +230,8 @@ MapTangents frame_of(const ExplainedFrame& frame, const PixelFragment& f, const 
   return along;
 }
 
-/// Position, normal, colour and uv as interpolated, and the maps looked up.
+/// Sets position, normal, colour and uv of out.computed as interpolated, looks the maps up into out.lookups, and
+/// applies the colour map and the normal map.
 void interpolate(const ExplainedFrame& frame, const PixelFragment& f, const GBufferState& planes, PixelSurface& out) {
   const TriangleCorners corners(frame, f);
   const Interpolator at = interpolator(frame, f, out.weights);

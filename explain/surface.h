@@ -36,14 +36,17 @@ struct PixelSurface {
   SurfacePlanes read;                             ///< as lights read them from the planes
 };
 
-/// The surface of a fragment, rounded to the formats of `planes`. docs/arithmetic.md sections 5, 7 and 13.
+/// The surface of a fragment that has a piece, be the sample beside it, before and after the formats of `planes` round
+/// it (docs/arithmetic.md sections 5, 7 and 13). Looks the material's maps up.
 PixelSurface surface_of(const ExplainedFrame& frame, const PixelFragment& fragment, const GBufferState& planes,
                         WindowPixel pixel);
 
-/// Whether fragments of an instance undergo the alpha test: the material's cutoff is not 0.
+/// Whether fragments of an instance undergo the alpha test: the material's cutoff is not 0, and the frame has maps or
+/// cutoffs at all.
 bool has_alpha_test(const ExplainedFrame& frame, uint32_t instance);
 
-/// The alpha that is compared with the material's cutoff; nothing where the material has none.
+/// The alpha that is compared with the material's cutoff; nothing where the instance has no alpha test. Looks the
+/// colour map up.
 std::optional<float> tested_alpha(const ExplainedFrame& frame, const PixelFragment& fragment);
 
 /// What a shader reads of `target`, a plane or the target, after a draw without blending has stored `values` there.

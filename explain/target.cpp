@@ -66,6 +66,7 @@ std::array<float, 4> summed(const LightTotal& total, LightTimes times) {
   return received(total, sum);
 }
 
+/// One surface under every light, each with its term and its fate, and their sum; no lights where the surface is unlit.
 LightTotal lit(const ExplainedFrame& frame, const FrameLights& lights, const SurfacePlanes& surface,
                WindowPixel pixel) {
   LightTotal out;
@@ -79,10 +80,12 @@ LightTotal lit(const ExplainedFrame& frame, const FrameLights& lights, const Sur
   return out;
 }
 
+/// What summed() returns, which is known already where each light counts once.
 std::array<float, 4> sum_of(const LightTotal& total, LightTimes times) {
   return times.times.empty() ? total.sum : summed(total, times);
 }
 
+/// How many triangles of a light's mesh cover the pixel and are not culled.
 uint32_t mesh_covers(const ExplainedFrame& frame, const Light& light, const LightMesh& mesh, WindowPixel pixel) {
   std::vector<glm::vec3> vertices(mesh.unit.size());
   std::vector<ClipVertex> clip;
@@ -105,6 +108,8 @@ std::array<float, 4> source_of(const LightTotal& total, size_t light) {
   return received(total, total.lights[light].term);
 }
 
+/// Draws the base where the pipeline has one, then each light as often as its geometry covers the pixel and the light
+/// counts. Draws nothing where no surface is visible.
 void draw_volumes(const ExplainedFrame& frame, const LitSurfaces& lit, LightTimes times, Drawing& drawing) {
   if (!lit.covered) return;
   const LightTotal& visible = lit.visible;
@@ -117,6 +122,8 @@ void draw_volumes(const ExplainedFrame& frame, const LitSurfaces& lit, LightTime
   }
 }
 
+/// Draws the visible surface with the first light, then adds every other light to each tied surface or, where there are
+/// none, to the visible one.
 void draw_passes(const ExplainedFrame& frame, const LitSurfaces& lit, LightTimes times, Drawing& drawing) {
   const size_t lights = frame.lights.table.size();
   if (lit.covered) {

@@ -41,12 +41,13 @@ struct LitSurfaces {
   std::vector<uint32_t> geometry;       ///< deferred-volumes: how often each light's geometry covers the pixel
 };
 
-/// How often each light's geometry covers a pixel, under deferred-volumes: quads cover all pixels once, meshes by their
-/// triangles. Empty under other strategies.
+/// How often each light's geometry covers a pixel, under deferred-volumes: a quad covers every pixel once, a mesh as
+/// often as its triangles do that are not culled. Empty under other strategies.
 std::vector<uint32_t> geometry_at(const ExplainedFrame& frame, WindowPixel pixel);
 
-/// Lights the surfaces. docs/arithmetic.md sections 8, 9 and 15. Borrows the frame.
-///   geometry: as geometry_at() gives it
+/// Lights each surface by every light (docs/arithmetic.md sections 8, 9 and 15); no light is asked of a surface that is
+/// unlit. The result borrows the frame.
+///   geometry: as geometry_at() gives it; a light of which it has 0 is not_drawn on the visible surface
 LitSurfaces lit_surfaces(const ExplainedFrame& frame, const PixelSurfaces& surfaces, std::vector<uint32_t> geometry);
 
 /// One draw into the target.
@@ -58,10 +59,10 @@ struct TargetDraw {
   StoredPixel before{}, after{};
 };
 
-/// Draws lit surfaces into a pixel as the pipeline's strategy does, and returns what it holds then. docs/arithmetic.md
-/// sections 7, 10, 14 and 15.
+/// Draws lit surfaces into a pixel as the pipeline's strategy does, and returns what it holds then (docs/arithmetic.md
+/// sections 7, 10, 14 and 15). Where no surface is drawn, that is the clear colour.
 ///   times: for questions of the kind "what if": how often each light counts; empty: each once
-///   draws: if not null, receives every draw in order; the first is the clear
+///   draws: if not null, every draw is appended in order; the first is the clear
 StoredPixel drawn_target(const ExplainedFrame& frame, const LitSurfaces& lit, std::span<const uint8_t> times = {},
                          std::vector<TargetDraw>* draws = nullptr);
 

@@ -43,6 +43,8 @@ bool Following::work(const std::function<SharedTasks()>& prepare) {
   return goes_on_;
 }
 
+/// Does tasks on this thread and on at_once - 1 others, and returns when all of these threads are done. Where the
+/// system starts no more threads, the ones there are do all of it. Does nothing where the run is over.
 void Following::do_tasks(const SharedTasks& tasks) {
   {
     const Lock lock(mutex_);
@@ -63,6 +65,8 @@ void Following::do_tasks(const SharedTasks& tasks) {
   for (std::thread& other : others) other.join();
 }
 
+/// Waits for a task, does it, and sends its result. Sends the failure instead where the task throws. False where this
+/// thread has nothing more to do: the run is over, the task was withdrawn, or it failed.
 bool Following::do_task(const SharedTasks& tasks) {
   RankSays task;
   {
@@ -82,6 +86,9 @@ bool Following::do_task(const SharedTasks& tasks) {
   return false;
 }
 
+/// The second thread, from construction until the object ends: hears rank 0, says that this rank is there, and ends the
+/// run where rank 0 is lost. Ends the process, by exit code 0, where this rank's task goes on for longer than
+/// lost_after after the end.
 void Following::talk() {
   Clock::time_point heard = Clock::now(), told{}, ended{};
   while (true) {
@@ -114,7 +121,8 @@ void Following::talk() {
   ranks_.send(0, packed({.what = RankSays::What::bye, .round = round_}));
 }
 
-/// Acts on a message of rank 0. Called under the lock.
+/// Acts on a message of rank 0, and sends the messages that waited for one. A message of another version ends the run;
+/// one of another round is dropped. Called under the lock.
 void Following::hear(const RankMessage& message) {
   std::optional<RankSays> says = unpacked(message.bytes);
   if (!says) {
@@ -137,6 +145,8 @@ void Following::hear(const RankMessage& message) {
   changed_.notify_all();
 }
 
+/// Takes the run for over: withdraws the tasks that are being done, calls SharedTasks::stop, and wakes all threads.
+/// Called under the lock.
 void Following::end() {
   all_done_ = true;
   wanted_.withdraw();
@@ -144,6 +154,7 @@ void Following::end() {
   changed_.notify_all();
 }
 
+/// Sends rank 0 a message of this round or, until rank 0 was heard in this round, keeps it for hear() to send.
 void Following::tell(RankSays says) {
   says.round = round_;
   const Lock lock(mutex_);
@@ -153,6 +164,7 @@ void Following::tell(RankSays says) {
     untold_.push_back(std::move(says));
 }
 
+/// Tells rank 0 of the exception that is being handled. `task`: -1 before there were any.
 void Following::tell_failure(int task) {
   const FailureText failure = failure_text(std::current_exception());
   tell({.what = RankSays::What::failure, .number = task, .kind = failure.kind, .words = {failure.text}});

@@ -17,7 +17,9 @@ namespace trueshade {
 /// threads where SharedTasks::at_once exceeds 1. One more thread talks to rank 0, as long as the object lives.
 class Following {
  public:
+  /// Starts the thread that talks. Borrows the ranks.
   Following(Ranks& ranks, const SharingRules& rules, uint32_t round);
+  /// Says bye to rank 0, and waits for the thread that talks. That thread may end the process: see talk().
   ~Following();
   Following(const Following&) = delete;
   Following& operator=(const Following&) = delete;
@@ -30,13 +32,13 @@ class Following {
  private:
   using Lock = std::unique_lock<std::mutex>;
 
-  void talk();  // the second thread
+  void talk();
   void hear(const RankMessage& message);
   void tell(RankSays says);
-  void tell_failure(int task);  // of the exception that is being handled
+  void tell_failure(int task);
   void do_tasks(const SharedTasks& tasks);
-  bool do_task(const SharedTasks& tasks);  // false: there is nothing more to do
-  void end();                              // under the lock
+  bool do_task(const SharedTasks& tasks);
+  void end();
 
   Ranks& ranks_;
   const SharingRules rules_;

@@ -38,7 +38,8 @@ std::optional<int> HandOut::next_for(int rank, Clock::time_point now) {
   return task;
 }
 
-/// The free task of the lowest number; nothing where the window has no room for it.
+/// Takes the free task of the lowest number out of `free_`, and counts it as begun. Nothing where none is free, or the
+/// window has no room for it. A task that was handed out before keeps its room.
 std::optional<int> HandOut::fresh() {
   if (free_.empty()) return {};
   const int task = free_.top();
@@ -51,7 +52,7 @@ std::optional<int> HandOut::fresh() {
 }
 
 /// The lowest task that exactly one rank, and not this one, has held for slow_after, and for twice the mean time that a
-/// task takes.
+/// task takes. Nothing where there is none, or where slow_after is kNever.
 std::optional<int> HandOut::slow_one(int rank, Clock::time_point now) const {
   if (rules_.slow_after >= kNever) return {};
   const auto mean =
@@ -100,6 +101,7 @@ std::vector<std::pair<int, int>> HandOut::taken_and_closed(int task) {
   return left_out;
 }
 
+/// Counts a task as taken or left out, and moves `first_untaken_` on.
 void HandOut::settle(int task) {
   tasks_[size_t(task)].settled = true;
   ++settled_;

@@ -16,35 +16,42 @@ class HandOut {
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::hours kNever{1 << 16};  ///< as slow_after: no task is handed out twice
   struct Rules {
-    int tasks, ranks;
-    int window;  ///< as SharingRules has it
+    int tasks, ranks;  ///< how many of each
+    int window;        ///< as SharingRules has it
     std::chrono::milliseconds slow_after;
     bool in_any_order;
   };
+  /// No rank gets a task before let_have().
   ///   after: for each task, the tasks whose results must be taken before it is handed out; empty: none wait
   HandOut(const Rules& rules, const std::vector<std::vector<int>>& after);
 
   /// Lets a rank hold `at_work` tasks at a time, and `ahead` more that wait at the rank as long as more tasks are free
-  /// than there are ranks. Called once for a rank; until then the rank gets none.
+  /// than there are ranks. Widens the window by 4 for each of `at_work` beyond the first, where Rules::window is 0: so
+  /// it is called once for a rank. Until then the rank gets none.
   void let_have(int rank, int at_work, int ahead);
 
   /// Hands one more task to a rank; the caller sends it there. Nothing where the rank holds enough, or no task can be
   /// handed out now. A rank that holds none may get a task that another rank has been at work on for long.
   std::optional<int> next_for(int rank, Clock::time_point now);
-  /// Notes that a rank has sent its result of a task. Returns whether it is the first result of this task.
+  /// Notes that a rank has sent its result of a task, and so holds this task no more. Returns whether it is the first
+  /// result of this task.
   bool came(int task, int rank, Clock::time_point now);
   /// Notes that the task's result was passed to SharedTasks::take. This makes room in the window for another task, and
   /// frees tasks that waited for this one alone.
   void taken(int task);
-  /// As taken(), but the tasks that are after this one, directly or through others, are left out of the run. Returns
-  /// each of them, paired with the task that it is after and because of which it is left out.
+  /// Does what taken() does, but leaves the tasks that are after this one, directly or through others, out of the run.
+  /// Returns each of them, paired with the task that it is after and because of which it is left out.
   std::vector<std::pair<int, int>> taken_and_closed(int task);
   /// Frees the tasks that this rank alone holds, for other ranks, and lets the rank hold none from now on.
   void lose(int rank);
 
+  /// Whether a task was handed out more than once, be it after a loss or because it was slow.
   bool was_handed_out_twice(int task) const { return tasks_[size_t(task)].times > 1; }
+  /// How often a task was handed out that had been handed out before.
   int handed_out_twice() const { return twice_; }
+  /// Whether each task is taken or left out. It is true where there are no tasks.
   bool all_taken() const { return settled_ == rules_.tasks; }
+  /// The lowest task that is neither taken nor left out; the number of tasks where there is none.
   int first_untaken() const { return first_untaken_; }
 
  private:

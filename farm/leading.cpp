@@ -20,6 +20,7 @@ constexpr Milliseconds kPatience{5000};  // with the others, once the run has fa
 
 const char* const kSameEverywhere = "give every machine the same program and the same files";
 
+/// SHA-256 of the part of a result that must be equal on every rank.
 std::string same_hash(const SharedTasks& tasks, std::span<const uint8_t> result) {
   const std::span<const uint8_t> part = tasks.same_part ? tasks.same_part(result) : result;
   Sha256 hash;
@@ -27,6 +28,7 @@ std::string same_hash(const SharedTasks& tasks, std::span<const uint8_t> result)
   return hash.hex();
 }
 
+/// A value in quotes, cut after 64 characters.
 std::string shown(const std::string& value) {
   constexpr size_t kMost = 64;
   return "'" + (value.size() <= kMost ? value : value.substr(0, kMost) + "...") + "'";
@@ -107,6 +109,8 @@ SharingReport Leading::end() {
   return report_;
 }
 
+/// Ends the run: withdraws the tasks that are being done here, tells all ranks of the end, and joins the threads. Waits
+/// for the others for `patience` at most.
 void Leading::end_within(Milliseconds patience, bool goes_on) {
   {
     const Lock lock(mutex_);
@@ -124,6 +128,9 @@ void Leading::end_within(Milliseconds patience, bool goes_on) {
   for (std::thread& working : working_) working.join();
 }
 
+/// The second thread: hears the other ranks, tells them that this one is there, looks for losses and slow tasks, and
+/// calls SharedTasks::check. Returns when all ranks have left or the patience of end_within() is over; ranks that have
+/// not left by then are forgotten.
 void Leading::answer() {
   Clock::time_point looked{};
   while (true) {
@@ -152,6 +159,7 @@ void Leading::answer() {
   }
 }
 
+/// Does tasks on one thread of rank 0 until there is nothing more to do. An exception becomes the run's failure.
 void Leading::work() {
   try {
     while (work_once()) {
@@ -163,7 +171,8 @@ void Leading::work() {
   }
 }
 
-/// Waits for a task and does it; false where there is nothing more to do.
+/// Waits for a task and does it; false where there is nothing more to do. Calls SharedTasks::check before and while it
+/// waits. Throws what `check` and the task throw.
 bool Leading::work_once() {
   std::optional<int> task;
   std::vector<uint8_t> brief;
@@ -211,8 +220,8 @@ void Leading::hear(int rank, std::optional<RankSays> says) {
   }
 }
 
-/// Compares the identity in a rank's hello with that of rank 0. A rank that differs is left out; any other gets tasks
-/// from now on.
+/// Compares the identity in a rank's hello with that of rank 0. A rank that differs is left out; any other may be
+/// handed tasks from now on.
 void Leading::meet(int rank) {
   Other& other = others_[size_t(rank)];
   const std::vector<std::string> words = std::move(other.hello->words);
@@ -230,10 +239,13 @@ void Leading::meet(int rank) {
   let_have(rank, other.hello->number);
 }
 
+/// Lets a rank hold tasks, at least one at a time. Does nothing for a rank beyond the first SharingRules::ranks.
 void Leading::let_have(int rank, int at_once) {
   if (rules_.ranks == 0 || rank < rules_.ranks) hand_out_->let_have(rank, std::max(at_once, 1), rules_.ahead);
 }
 
+/// Keeps the first result of a task for next_result(), drops later ones, and hands out more tasks. Fails the run where
+/// a task was handed out twice and two of its results differ. Ignores a task that there is not.
 void Leading::hear_result(int rank, int task, std::vector<uint8_t> bytes) {
   if (!hand_out_ || task < 0 || task >= tasks_->count) return;
   const bool first = hand_out_->came(task, rank, Clock::now());
@@ -252,6 +264,7 @@ void Leading::hear_result(int rank, int task, std::vector<uint8_t> bytes) {
   changed_.notify_all();
 }
 
+/// Loses each rank whose process has ended, or that was silent for longer than lost_after.
 void Leading::look_for_losses() {
   for (int rank = 1; rank < ranks_.count(); ++rank) {
     const Other& other = others_[size_t(rank)];
@@ -267,7 +280,8 @@ void Leading::look_for_losses() {
   }
 }
 
-/// Leaves a lost rank out, and neither sends to it nor waits for it any more.
+/// Leaves a lost rank out, and neither sends to it nor waits for it any more. While the run ends, the loss is no
+/// failure.
 void Leading::lose(int rank, const std::string& how) {
   Other& other = others_[size_t(rank)];
   if (!ending_ && other.phase != Phase::left_out)
@@ -290,6 +304,7 @@ void Leading::leave_out(int rank, ErrorKind kind, const std::string& why, const 
   changed_.notify_all();
 }
 
+/// Sends every other rank that is ready the tasks that it may have. Does nothing once the run has failed or ends.
 void Leading::hand_out() {
   if (failure_ || ending_) return;
   for (int rank = 1; rank < ranks_.count(); ++rank) {
@@ -300,10 +315,12 @@ void Leading::hand_out() {
   }
 }
 
+/// What rank 0 alone knows of a task; no bytes where SharedTasks::brief is not set.
 std::vector<uint8_t> Leading::brief_of(int task) const {
   return tasks_->brief ? tasks_->brief(task) : std::vector<uint8_t>();
 }
 
+/// Tells all other ranks that this one is there, once in each beat_interval().
 void Leading::beat() {
   const Clock::time_point now = Clock::now();
   if (now - last_beat_ < beat_interval(rules_.lost_after)) return;
@@ -311,19 +328,23 @@ void Leading::beat() {
   for (int rank = 1; rank < ranks_.count(); ++rank) say(rank, RankSays::What::beat);
 }
 
+/// Whether each other rank has said bye or is lost.
 bool Leading::all_left() const {
   return std::all_of(others_.begin() + 1, others_.end(), [](const Other& other) { return other.left; });
 }
 
+/// Notes the run's failure, of which the first counts, and wakes all threads.
 void Leading::fail(std::exception_ptr failure) {
   if (!failure_) failure_ = std::move(failure);
   changed_.notify_all();
 }
 
+/// Sends a rank a message of this round.
 void Leading::say(int rank, RankSays::What what, int number) {
   ranks_.send(rank, packed({.what = what, .round = round_, .number = number}));
 }
 
+/// `rank 2 on node7`
 std::string Leading::name_of(int rank) const { return "rank " + std::to_string(rank) + " on " + ranks_.host(rank); }
 
 }  // namespace trueshade

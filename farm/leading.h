@@ -21,12 +21,14 @@ namespace trueshade {
 /// the other ranks, if there are any, from construction to end(). SharedTasks::at_once further threads do tasks here.
 class Leading {
  public:
+  /// Starts the thread that answers the other ranks, if there are any. Borrows the ranks.
   Leading(Ranks& ranks, const SharingRules& rules, uint32_t round);
   ~Leading();  ///< ends a run that has failed, and waits for the others for some seconds
   Leading(const Leading&) = delete;
   Leading& operator=(const Leading&) = delete;
 
-  /// Hands the tasks out from now on. The caller keeps `tasks` alive as long as this object.
+  /// Hands the tasks out from now on, and starts the threads that do them here. The caller keeps `tasks` alive as long
+  /// as this object. Throws std::system_error where the system starts none of these threads.
   void begin(const SharedTasks& tasks);
 
   struct Result {
@@ -36,11 +38,12 @@ class Leading {
   /// Waits for the result that is to be passed to SharedTasks::take next; nothing after the last. Where the run has
   /// failed and the next result is not here, throws the failure.
   std::optional<Result> next_result();
-  /// To be called after SharedTasks::take. Frees the tasks that are after this one; where SharedTasks::opens says no,
+  /// Called after SharedTasks::take. Frees the tasks that are after this one; where SharedTasks::opens says no,
   /// leaves them out and calls SharedTasks::leave_out for each.
   void taken(int task);
 
-  /// After the last result: tells all ranks that nothing is left to do, and waits until they know, or are lost.
+  /// After the last result: tells all ranks that nothing is left to do, and waits until they know, or are lost, but for
+  /// `lost_after` at most. Ranks that have not answered by then are forgotten. Calls SharedTasks::stop.
   SharingReport end();
 
  private:
@@ -53,14 +56,16 @@ class Leading {
   };
   using Lock = std::unique_lock<std::mutex>;
 
-  void answer();  // the second thread
-  void work();    // the others
+  void answer();
+  void work();
   bool work_once();
 
   void end_within(std::chrono::milliseconds patience, bool goes_on);
 
   // These are called under the lock.
-  void hear(int rank, std::optional<RankSays> says);  // empty: the message is of another version
+  // Acts on a message of a rank, which is also a sign of life. Empty: the message is of another version, and the rank
+  // is left out. What is of another round is dropped.
+  void hear(int rank, std::optional<RankSays> says);
   void meet(int rank);
   void hear_result(int rank, int task, std::vector<uint8_t> bytes);
   void look_for_losses();

@@ -26,8 +26,8 @@ constexpr std::array<Variables, 3> kVariables = {{{"OMPI_COMM_WORLD_RANK", "OMPI
                                                   {"PMI_RANK", "PMI_SIZE"},
                                                   {"PMIX_RANK", "SLURM_STEP_NUM_TASKS"}}};
 
-/// mpirun binds each of one or two processes to a core of its own, which is for programs of one thread. A binding that
-/// was asked for stays, as does what the system grants the process.
+/// Lets this process run on every core that the system grants it. mpirun binds each of one or two processes to a core
+/// of its own, which is for programs of one thread. A binding that was asked for stays.
 void undo_usual_binding() {
   if (std::getenv("OMPI_MCA_orte_bound_at_launch") == nullptr || std::getenv("OMPI_MCA_hwloc_base_binding_policy"))
     return;
@@ -36,6 +36,8 @@ void undo_usual_binding() {
   sched_setaffinity(0, sizeof all, &all);
 }
 
+/// Loads the module and joins the other processes; the caller owns the ranks. Error(io) where no module can be loaded,
+/// or where some processes did not come within two minutes.
 Ranks* loaded_ranks() {
   namespace fs = std::filesystem;
   std::error_code absent;
@@ -57,6 +59,7 @@ Ranks* loaded_ranks() {
               "install the package trueshade-mpi, build with libopenmpi-dev, or start without mpirun");
 }
 
+/// The ranks of this process; null until they are joined.
 std::unique_ptr<Ranks>& joined_ranks() {
   static std::unique_ptr<Ranks> ranks;
   return ranks;

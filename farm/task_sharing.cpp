@@ -6,6 +6,7 @@
 namespace trueshade {
 namespace {
 
+/// share_tasks() on rank 0.
 SharingReport lead(Ranks& ranks, const SharingRules& rules, const std::function<SharedTasks()>& prepare,
                    uint32_t round) {
   SharedTasks tasks;  // outlives the threads that do them

@@ -13,17 +13,22 @@
 namespace trueshade {
 
 /// Whether the result of a task that is being done is still wanted: it is not once the run is over, by a failure or
-/// because another rank did the task sooner. Long tasks ask now and then.
+/// because all results have come. A task that another rank did sooner is not withdrawn before. Long tasks ask now and
+/// then.
 class Wanted {
  public:
+  /// Whether the result is still wanted. Any thread may ask.
   bool still() const { return !withdrawn_; }
   /// Throws Withdrawn, which share_tasks() catches, where the result is no longer wanted.
   void check() const;
+  /// From now on the result is not wanted.
   void withdraw() { withdrawn_ = true; }
 
  private:
   std::atomic<bool> withdrawn_{false};
 };
+
+/// What Wanted::check() throws.
 struct Withdrawn {};
 
 /// Tasks 0 .. count - 1, and what becomes of their results. A result is a function of the task's number alone.
@@ -59,20 +64,21 @@ struct SharedTasks {
   /// all of it.
   std::function<std::span<const uint8_t>(std::span<const uint8_t> result)> same_part;
 
-  /// On rank 0, on the thread that called share_tasks(), once for each task, in the order of their numbers. An
+  /// Called on rank 0, on the thread that called share_tasks(), once for each task, in the order of their numbers. An
   /// exception of it ends the run on all ranks and reaches the caller there.
   std::function<void(int task, std::vector<uint8_t> result)> take;
   /// Takes results in the order that they come in instead: `take` is called once for each task, in any order.
   bool in_any_order = false;
 
-  /// After take(): whether tasks that are after this one are to be done. If not, they, and those that are after them,
-  /// are left out: neither run nor taken. Not set: they are.
+  /// Called after take: whether tasks that are after this one are to be done. If not, they, and those that are after
+  /// them, are left out: neither run nor taken. Not set: they are.
   std::function<bool(int task)> opens;
   /// Called on rank 0, on the thread that called share_tasks(), for each task that is left out. `because` is the task
   /// that it is after and because of which it is left out.
   std::function<void(int task, int because)> leave_out;
 };
 
+/// How tasks are shared. None of this changes a result.
 struct SharingRules {
   std::chrono::milliseconds lost_after{60000};  ///< a rank that is silent for so long is lost
   bool continue_without_lost = false;           ///< gives tasks of lost ranks to others; else a loss is an Error
@@ -102,7 +108,9 @@ struct SharingReport {
 /// Throws on rank 0: what `take`, its own `prepare` and its own `run` throw; Error of the kind and text of what another
 /// rank's `prepare` or `run` threw, with `rank N on HOST: ` before it; Error(io) for a lost rank; Error(bad_input) for
 /// a rank that differs; std::logic_error for two results of a task that differ. Then the others return in order, and
-/// what was taken stays. On other ranks nothing is thrown but Error(io) where rank 0 is lost.
+/// what was taken stays. On other ranks nothing is thrown but Error(io) where rank 0 is lost and Error(bad_input) where
+/// its messages are of another version. A rank whose task goes on for longer than `lost_after` after the end ends its
+/// process there, by exit code 0.
 SharingReport share_tasks(Ranks& ranks, const SharingRules& rules, const std::function<SharedTasks()>& prepare);
 
 }  // namespace trueshade

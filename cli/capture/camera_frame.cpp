@@ -12,12 +12,14 @@ namespace trueshade {
 namespace {
 
 double dot3(const Real3& a, const Real3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+/// a + share * b
 Real3 plus(const Real3& a, const Real3& b, double share) {
   return {a[0] + share * b[0], a[1] + share * b[1], a[2] + share * b[2]};
 }
 Real3 crossed(const Real3& a, const Real3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
+/// A vector made unit length; NaN of a vector of length 0.
 Real3 unit3(const Real3& a) {
   const double length = std::sqrt(dot3(a, a));
   return {a[0] / length, a[1] / length, a[2] / length};
@@ -65,6 +67,7 @@ Real3 CameraFrame::world_position(CapturedSpace space, const Real3& p) const {
   return space == CapturedSpace::world ? p : plus(world_direction(space, p), eye_, 1);
 }
 
+/// Normalized device coordinates of a pixel's centre.
 std::array<double, 2> CameraFrame::ndc(int x, int y) const {
   const double nx = (x + 0.5 - viewport_.x) * 2 / viewport_.width - 1;
   const double ny = (height_ - 1 - y + 0.5 - viewport_.y) * 2 / viewport_.height - 1;

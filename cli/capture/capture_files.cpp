@@ -14,10 +14,12 @@ constexpr std::string_view kEveryPlane[] = {"color",    "depth", "position",  "n
                                             "emission", "uv",    "id.object", "id.material", "light.count"};
 constexpr std::string_view kFileEndings[] = {".exr", ".npy", ".dds", ".tif", ".tiff", ".png"};
 
+/// Throws Error(bad_input).
 [[noreturn]] void refuse_capture(const std::string& where, const std::string& reason, const std::string& remedy) {
   throw Error(ErrorKind::bad_input, where, reason, remedy);
 }
 
+/// The names of a file's channels, with their parts, cut after about 200 characters.
 std::string channel_list(const ChannelFile& file) {
   std::string list;
   for (const Channel& c : file.channels) {
@@ -41,10 +43,12 @@ bool begins_with(std::string_view text, std::string_view name, std::string& rest
   return true;
 }
 
+/// Reads one capture: read(), then read_picture() if there is a picture, then finished(); or finished_picture() alone.
 class CaptureReader {
  public:
   CaptureReader(const CaptureMap& map, uint64_t most_expansion) : map_(map), most_expansion_(most_expansion) {}
 
+  /// The index of a file, which is read unless it was before.
   size_t load(const std::string& path) {
     for (size_t i = 0; i < out_.files.size(); ++i)
       if (out_.files[i].path == path) return i;
@@ -96,6 +100,8 @@ class CaptureReader {
     return longest;
   }
 
+  /// Adds a plane of the map, by its source or, where it has none, by its usual channels. Error(bad_input) where these
+  /// are missing.
   void add_mapped(const MappedPlane& plane) {
     if (plane.source.empty()) {
       if (!add_usual(plane))
@@ -107,7 +113,8 @@ class CaptureReader {
     add(plane, source.file, channels_named(plane, source));
   }
 
-  /// The indices, in the file, of the channels that source.channels names.
+  /// The indices, in the file, of the channels that source.channels names; without any name those of the file or its
+  /// part, as many as the plane takes. Error(bad_input) for a channel that is missing, or in two parts.
   std::vector<size_t> channels_named(const MappedPlane& plane, const NamedSource& source) {
     const ChannelFile& file = out_.files[source.file];
     const auto named = [&](const std::string& name) {
@@ -149,7 +156,8 @@ class CaptureReader {
     return list;
   }
 
-  /// The indices that `FIRST-LAST` names, numbers of channels from 0; `dash` is the place of the dash in `text`.
+  /// The indices that `FIRST-LAST` names, numbers of channels from 0; `dash` is the place of the dash in `text`. Empty
+  /// where the text is another, or the file has fewer channels.
   static std::vector<size_t> channels_numbered(const ChannelFile& file, const std::string& text, size_t dash) {
     const auto number = [](const std::string& digits) -> std::optional<size_t> {
       if (digits.empty() || digits.size() > 3 || digits.find_first_not_of("0123456789") != std::string::npos)
@@ -169,10 +177,12 @@ class CaptureReader {
     if (plane.plane == "position" && plane.depth != CapturedDepth::none) return 1;
     return channels_of_plane(plane.plane)->most;
   }
+  /// How many channels a plane takes at least.
   static size_t least_channels(const MappedPlane& plane) {
     return std::min(most_channels(plane), channels_of_plane(plane.plane)->least);
   }
 
+  /// Notes a plane and its channels. Error(bad_input) where these are too few, too many, or of two types.
   void add(const MappedPlane& plane, size_t file, const std::vector<size_t>& channels) {
     const ChannelFile& of = out_.files[file];
     const size_t least = least_channels(plane), most = most_channels(plane);
@@ -190,7 +200,8 @@ class CaptureReader {
     found_.push_back({plane, file, channels});
   }
 
-  /// Adds the plane by its usual channels. Returns false if no file has any of them.
+  /// Adds the plane by its usual channels, of the files of --gbuffer. Returns false if no file has any of them.
+  /// Error(bad_input) where two files have some, or a file lacks one that the plane needs.
   bool add_usual(const MappedPlane& plane) {
     const std::vector<std::string> names = exr_channels_of(plane.plane, int(channels_of_plane(plane.plane)->most));
     std::optional<size_t> holder;
@@ -210,6 +221,7 @@ class CaptureReader {
     return holder.has_value();
   }
 
+  /// Error(bad_input) unless each of the usual channels is there once; those that a plane may lack may be absent.
   static void check_usual(const MappedPlane& plane, const ChannelFile& file, const std::vector<std::string>& names,
                           const std::vector<size_t>& places) {
     for (size_t i = 0; i < names.size(); ++i) {
@@ -220,6 +232,8 @@ class CaptureReader {
     }
   }
 
+  /// Reads the files and adds the planes of the map or, without one, those whose usual channels are there.
+  /// Error(bad_input) where there is nothing to look for, or nothing is found.
   void read(const std::vector<std::string>& gbuffer) {
     for (const std::string& path : gbuffer) load(path);
     if (gbuffer.empty() && map_.planes.empty())
@@ -240,6 +254,7 @@ class CaptureReader {
     }
   }
 
+  /// Reads the file and adds the channels R G B and A as the plane `color`, in place of any other.
   void read_picture(const std::string& path) {
     std::erase_if(found_, [](const Found& f) { return f.plane.plane == "color"; });
     const size_t file = load(path);
@@ -255,12 +270,15 @@ class CaptureReader {
     add(plane, file, places);
   }
 
+  /// What read_picture() found, of a capture without planes.
   CaptureFiles finished_picture(const std::string& path) {
     read_picture(path);
     list_planes();
     return std::move(out_);
   }
 
+  /// What was found, with the planes pointing into the files. Error(bad_input) for files of two sizes, and where there
+  /// is no plane but the picture. Called once.
   CaptureFiles finished() {
     for (const ChannelFile& file : out_.files)
       if (file.width != out_.width() || file.height != out_.height())
@@ -278,6 +296,7 @@ class CaptureReader {
   }
 
  private:
+  /// Makes out_.planes, which point into out_.files: no file is read after it.
   void list_planes() {
     for (const Found& f : found_) {
       PlaneChannelList list{f.plane, &out_.files[f.file], {}};

@@ -23,18 +23,22 @@ struct CaptureFiles {
   CaptureFiles() = default;
   CaptureFiles(CaptureFiles&&) = default;
   CaptureFiles& operator=(CaptureFiles&&) = default;
+  /// Pixels; there is at least one file.
   int width() const { return files.front().width; }
+  /// Pixels; there is at least one file.
   int height() const { return files.front().height; }
 };
 
 /// Reads `gbuffer` and the files that the map names, and finds the channels of the planes: those of the map, or without
 /// one all whose usual channels are there (docs/captures.md). `image`: the file of the picture, or empty.
-/// Error(bad_input): a channel that is missing, of two types in a plane, in two files; files of two sizes; no plane at
-/// all. Else as read_channel_file().
+/// Error(bad_input) for a channel that is missing, that has another type than the plane's others, or that is in two
+/// files; for files of two sizes; and where there is no plane but the picture. Else it throws as read_channel_file().
+///   most_expansion: as read_channel_file() has it
 CaptureFiles read_capture_files(const std::vector<std::string>& gbuffer, const std::string& image,
                                 const CaptureMap& map, uint64_t most_expansion);
 
-/// A picture alone: the channels R G B, and A if there is one, of a file.
+/// Reads a picture alone: the channels R G B, and A if there is one, of a file. Error(bad_input) where it has fewer
+/// than three of these. Else it throws as read_channel_file().
 CaptureFiles read_picture_file(const std::string& path, uint64_t most_expansion);
 
 }  // namespace trueshade

@@ -54,10 +54,12 @@ constexpr MapWord kWords[] = {
 
 constexpr std::string_view kTimes = "times=";  // of depths and positions, with a number behind it
 
+/// The kinds of words that may be said of a plane, as bits of Planes.
 int planes_of_word(std::string_view plane) {
   return kEvery | (plane == "normal" ? kNormals : plane == "position" ? kPositions : plane == "depth" ? kDepths : 0);
 }
 
+/// A text without blanks, tabs and carriage returns at its ends.
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && std::string_view(" \t\r").find(text.front()) != std::string_view::npos) text.remove_prefix(1);
   while (!text.empty() && std::string_view(" \t\r").find(text.back()) != std::string_view::npos) text.remove_suffix(1);
@@ -88,6 +90,7 @@ class MapReader {
  public:
   MapReader(const std::string& where, ErrorKind kind) : where_(where), kind_(kind) {}
 
+  /// capture_map_from_text(). Called once.
   CaptureMap read(std::string_view text) {
     const bool lines = text.find('\n') != std::string_view::npos;
     for (size_t number = 1; !text.empty(); ++number) {
@@ -112,6 +115,7 @@ class MapReader {
     throw Error(kind_, place_.empty() ? where_ : place_, reason, remedy);
   }
 
+  /// Adds one entry to the map. Throws where it is none, or names a plane twice.
   void add(std::string_view entry) {
     const size_t equals = entry.find('=');
     const std::string_view name = trimmed(entry.substr(0, equals));
@@ -129,6 +133,8 @@ class MapReader {
     map_.planes.push_back(plane_of(std::string(name), value));
   }
 
+  /// A plane with its source and words. Throws where a word is unknown, is not said of this plane, or contradicts
+  /// another.
   MappedPlane plane_of(std::string name, std::string_view value) const {
     MappedPlane plane;
     plane.plane = std::move(name);
@@ -168,6 +174,7 @@ class MapReader {
     return plane;
   }
 
+  /// The number behind `times=`. Throws where it is not a finite number above 0.
   double factor_of(std::string_view text) const {
     double factor = 0;
     const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), factor);
@@ -176,12 +183,14 @@ class MapReader {
     return factor;
   }
 
+  /// The words that may be said of a plane, for errors.
   static std::string word_list(const std::string& plane) {
     std::string list;
     for (const MapWord& w : kWords)
       if ((w.planes & planes_of_word(plane)) != 0) list += (list.empty() ? "one of " : ", ") + std::string(w.word);
     return planes_of_word(plane) & (kDepths | kPositions) ? list + ", times=FACTOR" : list;
   }
+  /// The planes that a capture may have, for errors.
   static std::string plane_list() {
     std::string list;
     for (const PlaneChannels& p : kCapturedPlanes) list += (list.empty() ? "one of " : ", ") + std::string(p.plane);

@@ -43,6 +43,7 @@ struct MappedPlane {
   bool bottom_up = false;  ///< the file's first row is the picture's last
 
   bool operator==(const MappedPlane&) const = default;
+  /// Whether a word says that the plane's numbers stand for others. A depth of the window, and `bottom_up`, do not.
   bool is_unpacked() const {
     return packing != Packing::none || space != CapturedSpace::world || unorm || unit ||
            (depth != CapturedDepth::none && depth != CapturedDepth::window) ||
@@ -62,20 +63,21 @@ struct CaptureMap {
   std::string folder;      ///< that files named in it are relative to; empty: the working folder
 };
 
-/// Entries with commas or line ends between them; `#` begins a comment. An entry is PLANE,
-/// PLANE=FILE.CHANNELS[:WORD]..., or rows=top_down or rows=bottom_up. Error of `kind` behind `where`, with the line
-/// where there are several: for what is none of these, a plane twice, and words that do not go with the plane or with
-/// each other.
+/// Reads a map: entries with commas or line ends between them; `#` begins a comment. An entry is PLANE,
+/// PLANE=FILE.CHANNELS[:WORD]..., or rows=top_down or rows=bottom_up. Throws an Error of `kind` that begins with
+/// `where`, with the line where there are several: for what is none of these, a plane twice, words that do not go with
+/// the plane or with each other, and for a map that names no plane and does not say rows=bottom_up.
 CaptureMap capture_map_from_text(std::string_view text, const std::string& where, ErrorKind kind);
 
-/// The same of `--map`'s value: an entry list, or @FILE. Error(usage), or of the file as above Error(bad_input).
+/// Reads the value of `--map`: a list of entries, or @FILE, which is read. Throws as capture_map_from_text() does:
+/// Error(usage) for a list, Error(bad_input) for a file.
 CaptureMap capture_map_from_option(const std::string& value);
 
 /// The words of a plane as an entry has them, with colons between; without `bottom_up`.
 std::string words_of(const MappedPlane& plane);
 
-/// The same plane with other words that go with so many channels: first with those of one kind changed, then of two.
-/// Empty of planes that no word but `bottom_up` is said of.
+/// The same plane with other words that go with so many channels: a list of those with the words of one kind changed,
+/// then a list of those with two. Empty where there are none, as for planes of which no word but `bottom_up` is said.
 ///   factors: what `times` may be of lengths
 std::vector<std::vector<MappedPlane>> other_readings(const MappedPlane& plane, size_t channels,
                                                      std::span<const double> factors);
@@ -85,7 +87,7 @@ struct PlaneChannels {
   std::string_view plane;
   size_t least, most;
 };
-/// Null for a name that no captured plane has.
+/// The row of a plane; null for a name that no captured plane has.
 const PlaneChannels* channels_of_plane(std::string_view plane);
 
 }  // namespace trueshade

@@ -56,6 +56,7 @@ class PlaneUnpacker {
           farthest_light_, length_of({double(light.position.x), double(light.position.y), double(light.position.z)}));
   }
 
+  /// captured_planes(). Called once.
   CapturedPlanes run() {
     out_.capture.driver = "capture of " + files_.name;
     out_.capture.name = files_.name;
@@ -108,6 +109,8 @@ class PlaneUnpacker {
     note(plane.name + " holds one value wherever there is no surface: it is taken for the plane's clear value");
   }
 
+  /// Adds one plane to the capture, unpacked if its words say so. Error(bad_input) for values that the words do not
+  /// allow.
   void add(const PlaneChannelList& plane) {
     const std::string& name = plane.mapped.plane;
     if (plane.file->path != files_.name) out_.capture.files.emplace_back(name, plane.file->path);
@@ -137,8 +140,8 @@ class PlaneUnpacker {
     }
   }
 
-  /// Refuses depths and texture coordinates in halves where the pipeline stores more bits: they were rounded after they
-  /// were drawn.
+  /// Throws Error(bad_input) for depths and texture coordinates in halves where the pipeline stores more bits: they
+  /// were rounded after they were drawn.
   void check_halves(const PlaneChannelList& plane) const {
     const std::string& name = plane.mapped.plane;
     const Format format = name == "depth" ? pipeline_.geometry.depth_format : surface_planes(pipeline_).uv.format;
@@ -159,6 +162,8 @@ class PlaneUnpacker {
            (plane.channels[0]->is_code() ? plane.channels[0]->bits : plane.mapped.unorm_bits) == layout.bits[0];
   }
 
+  /// Sets covered_ by id.object or, without it, by depth: covered where the depth is farther than a code from the clear
+  /// depth. Leaves covered_ empty where neither plane is there.
   void find_surfaces() {
     const Image* const object = out_.capture.plane("id.object");
     const Image* const depth = out_.capture.plane("depth");
@@ -202,6 +207,8 @@ class PlaneUnpacker {
     out_.capture.decoded.push_back(std::move(decoded));
   }
 
+  /// The number of a channel at a pixel, times the plane's factor, with its step and what fetching it errs by.
+  /// Error(bad_input) for NaN, and for a number that is no code of `unorm_bits` where the plane says these.
   PackedNumber number_at(const PlaneChannelList& plane, size_t channel, int x, int y) const {
     const Channel& of = *plane.channels[channel];
     const double value = of.value(file_pixel(plane, x, y)) * plane.mapped.times;
@@ -217,6 +224,7 @@ class PlaneUnpacker {
     return {code / largest, 1 / largest, 2.5 * 0x1p-23 * code / largest};
   }
 
+  /// number_at(), turned from [0, 1] to [-1, 1] where the plane is unorm. Error(bad_input) outside [0, 1] then.
   PackedNumber component_at(const PlaneChannelList& plane, size_t channel, int x, int y) const {
     const PackedNumber number = number_at(plane, channel, x, y);
     if (!plane.mapped.unorm || plane.mapped.packing == Packing::spheremap) return number;
@@ -225,11 +233,15 @@ class PlaneUnpacker {
     return signed_number(number);
   }
 
+  /// Error(bad_input) for a normal in codes, which hold no negative numbers.
   void check_signed(const PlaneChannelList& plane) const {
     if (plane.channels[0]->is_code())
       fail(plane, "normal is stored in codes from 0 to 1, which hold no negative numbers", "say unorm");
   }
 
+  /// Adds the plane normal, unpacked and in the world. Error(bad_input) for integers, sRGB codes, NaN at a surface,
+  /// numbers that the packing does not have, and a camera without axes where the space is a view's. Adds a note where
+  /// the packing is coarse.
   void add_normals(const PlaneChannelList& plane) {
     const MappedPlane& mapped = plane.mapped;
     if (plane.channels[0]->kind == ChannelKind::integer || plane.channels[0]->kind == ChannelKind::srgb)
@@ -241,6 +253,7 @@ class PlaneUnpacker {
     if (packed) note_normal_steps();
   }
 
+  /// The normal of one pixel in the world, with its bounds.
   UnpackedVector unpacked_normal(const PlaneChannelList& plane, int x, int y) const {
     const auto component = [&](size_t k) { return component_at(plane, k, x, y); };
     const auto stored = [&](size_t k) {  // in the pipeline's format, which the file's type may not show
@@ -268,6 +281,7 @@ class PlaneUnpacker {
             std::sqrt(3.0) * v->packing_error + turned};
   }
 
+  /// Adds a note where the normals that were just added are packed to steps of 1e-4 or more.
   void note_normal_steps() {
     const std::vector<float>& errors = out_.capture.decoded.back().packing_error;
     const float most = errors.empty() ? 0 : *std::max_element(errors.begin(), errors.end());
@@ -279,6 +293,8 @@ class PlaneUnpacker {
     note(text);
   }
 
+  /// Adds the plane position, turned from a view space to the world. Error(bad_input) for NaN at a surface, and for a
+  /// camera without axes.
   void add_view_positions(const PlaneChannelList& plane) {
     frame_.check_axes();
     const double eye = length_of(frame_.eye());
@@ -302,6 +318,7 @@ class PlaneUnpacker {
     return plane.mapped.depth == CapturedDepth::reversed ? 1 - depth : depth;
   }
 
+  /// The point of a pixel's ray at a depth of this kind.
   Real3 point_at(CapturedDepth kind, int x, int y, double depth) const {
     if (kind == CapturedDepth::linear) return frame_.at_linear(x, y, depth);
     if (kind == CapturedDepth::distance) return frame_.at_distance(x, y, depth);
@@ -313,9 +330,11 @@ class PlaneUnpacker {
     return is_linear(plane) ? kComputed * std::fabs(depth) : kWindowComputed;
   }
 
-  /// Adds positions rebuilt from a depth. A position's error is the distance to the points at the ends of the depth's
-  /// error, plus that of a transformation. The G-buffer's stage leaves the plane out (its packing_error is infinite),
-  /// since the depth is that of the snapped triangle.
+  /// Adds positions rebuilt from a depth of any kind. A position's error is the distance to the points at the ends of
+  /// the depth's error, plus that of a transformation. A position is 0 where there is no surface, and where a distance
+  /// is not above 0 or infinite. The G-buffer's stage leaves the plane out (its packing_error is infinite), since the
+  /// depth is that of the snapped triangle. Error(bad_input) for NaN at a surface, and for a camera without axes. Adds
+  /// a note.
   void add_position_of_depth(const PlaneChannelList& plane) {
     frame_.check_axes();
     const CapturedDepth kind = plane.mapped.depth;
@@ -336,6 +355,7 @@ class PlaneUnpacker {
         "it out (its depth is judged as plane depth)");
   }
 
+  /// Error(bad_input) where the pipeline's depths are not d32f.
   void check_float_depth(const PlaneChannelList& plane) const {
     if (pipeline_.geometry.depth_format == Format::d32f) return;
     fail(plane,
@@ -344,7 +364,9 @@ class PlaneUnpacker {
          "state depth_format d32f, or capture the buffer itself");
   }
 
-  /// Adds the plane depth as 1 minus a reversed depth: exact for codes; for floats with the rounding of 1 - z.
+  /// Adds the plane depth as 1 minus a reversed depth: exact for codes; for floats with the rounding of 1 - z, and with
+  /// a note. Error(bad_input) for NaN, for numbers outside [0, 1], for halves where the pipeline stores more bits, and
+  /// for floats where the pipeline's depths are not d32f.
   void add_reversed_depth(const PlaneChannelList& plane) {
     check_halves(plane);
     const Channel& channel = *plane.channels[0];
@@ -364,8 +386,9 @@ class PlaneUnpacker {
         "depth_func greater and clear_depth 0, and take the depth as it is");
   }
 
-  /// Adds the plane depth of distances. Where a distance is not above 0, not finite, or beyond the clear depth, nothing
-  /// was drawn, and the depth is the clear depth.
+  /// Adds the plane depth of distances, along the camera's axis or from the eye. Where one is not above 0, infinite, or
+  /// at or beyond the clear depth, nothing was drawn, and the depth is the clear depth. Error(bad_input) for NaN, for a
+  /// pipeline whose depths are not d32f, and for a camera without axes. Adds a note.
   void add_linear_depth(const PlaneChannelList& plane) {
     check_float_depth(plane);
     frame_.check_axes();

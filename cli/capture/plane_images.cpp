@@ -14,11 +14,13 @@
 namespace trueshade {
 namespace {
 
+/// Whether each channel has so many bits.
 bool all_bits(const PlaneChannelList& plane, int bits) {
   return std::all_of(plane.channels.begin(), plane.channels.end(),
                      [bits](const Channel* c) { return c->bits == bits; });
 }
 
+/// Whether a plane is an identifier or a count.
 bool is_one_number(const std::string& plane) { return plane.starts_with("id.") || plane == "light.count"; }
 
 /// The format of the image that holds a plane's channels: see stored_plane_image().
@@ -44,7 +46,7 @@ Error bad_plane(const PlaneChannelList& plane, int x, int y, const std::string& 
           plane.mapped.plane + " at " + std::to_string(x) + ',' + std::to_string(y) + ' ' + reason, remedy};
 }
 
-/// store_row() for a plane of 32-bit floats whose channels the file holds as floats.
+/// store_row() for a plane of 32-bit floats whose channels the file holds as 32-bit words of floats.
 int store_floats(const PlaneChannelList& plane, int y, Image& image) {
   const size_t count = plane.channels.size(), pixel = file_pixel(plane, 0, y), width = size_t(image.width);
   uint8_t* const row = image.texel(0, y);
@@ -59,6 +61,7 @@ int store_floats(const PlaneChannelList& plane, int y, Image& image) {
   return first < width ? int(first) : -1;
 }
 
+/// Whether each channel of the file is of floats.
 bool holds_floats(const PlaneChannelList& plane) {
   return std::all_of(plane.channels.begin(), plane.channels.end(),
                      [](const Channel* c) { return c->kind == ChannelKind::floating; });

@@ -10,10 +10,11 @@ inline size_t file_pixel(const PlaneChannelList& plane, int x, int y) {
   return size_t(row) * size_t(plane.file->width) + size_t(x);
 }
 
-/// A plane as its channels have it: codes of 8, 10 and 16 bits in four channels and halves in three and four stay what
-/// they are, other codes become the floats k / largest, other floats float32; one integer stays one. A picture of three
-/// codes gets a fourth, of alpha 1. Error(bad_input) naming the pixel (from the top left): a NaN in a plane other than
-/// `color`; of integers in a plane that has several channels.
+/// A plane as its channels have it, the picture's first row first. Codes of 8, 10 and 16 bits in four channels and
+/// halves in three and four stay what they are, other codes become the floats k / largest, other floats float32; one
+/// integer stays one. A plane of three codes of 8 or 16 bits gets a fourth, of alpha 1, unless it is a position or a
+/// normal. Error(bad_input) for a NaN in a plane other than `color`, naming the pixel (from the top left), and for
+/// integers in a plane that is no identifier and no count. Infinity stays.
 Image stored_plane_image(const PlaneChannelList& plane);
 
 }  // namespace trueshade

@@ -126,6 +126,8 @@ std::array<int, 2> store_codes(const Image& given, int y, const FormatInfo& to, 
   return unheld;
 }
 
+/// A plane in the format `wanted`, or in that of as many channels. Error(bad_input) for other numbers of channels, for
+/// halves where floats are wanted, and for the first value that the format does not hold.
 Image converted(const std::string& where, const std::string& name, const Image& given, Format wanted) {
   const FormatInfo from = info(given.format);
   const Format format = format_for(wanted, from.channels);
@@ -173,14 +175,15 @@ Image converted(const std::string& where, const std::string& name, const Image& 
   return image;
 }
 
+/// Whether the capture has an albedo, without an alpha of its own.
 bool lacks_albedo_alpha(const oracle::Capture& capture) {
   const Image* const albedo = capture.plane("albedo");
   const oracle::DecodedPlane* const decoded = capture.decoding("albedo");
   return albedo != nullptr && (info(albedo->format).channels < 4 || (decoded != nullptr && !decoded->has_alpha));
 }
 
-/// A fourth channel beside a format of three, which reads as 1 there: 1 where there is a surface, 0 where the plane was
-/// cleared, and then it may be left out. `name` is the plane.
+/// The plane without its fourth channel, of which a format of three channels reads as 1: the channel is 1 where there
+/// is a surface, 0 where the plane was cleared. Error(bad_input) for another value. `name` is the plane.
 Image without_alpha(const std::string& where, const std::string& name, const Image& given, const FormatInfo& to) {
   Image image(given.width, given.height, given.format == Format::rgba16f ? Format::rgb16f : Format::rgb32f);
   for (int y = 0; y < given.height; ++y)
@@ -201,7 +204,7 @@ Image without_alpha(const std::string& where, const std::string& name, const Ima
   return image;
 }
 
-/// Planes that light programs alone read, which no pipeline has a format for.
+/// Whether light programs alone read a plane, for which no pipeline has a format then.
 bool is_of_programs(std::string_view plane) {
   for (const std::string_view name : {"metallic", "roughness", "occlusion", "uv1", "tangent"})
     if (plane == name) return true;

@@ -20,21 +20,25 @@ struct UnpackedVector {
   double packing_error = 0;  ///< to what was packed: a store may take either neighbouring number
 };
 
-/// 2 c - 1, what an unorm number c stands for: doubling is exact, the difference is rounded once.
+/// 2 c - 1, what an unorm number c stands for, with its step and error: doubling is exact, the difference is rounded
+/// once.
 PackedNumber signed_number(const PackedNumber& c);
 
-/// Three components as they are.
+/// Three components as they are, with the bounds of the largest error among them. Not made unit length.
 UnpackedVector unpacked_components(const std::array<PackedNumber, 3>& n);
 
-/// Octahedral: v = (x, y, 1 - |x| - |y|); where v.z < 0, v.xy = (1 - |v.yx|) sign(v.xy); n = v / |v|. Quirin Meyer et
-/// al., "On Floating-Point Normal Vectors", EGSR 2010; Zina H. Cigolle et al., "A Survey of Efficient Representations
-/// for Independent Unit Vectors", JCGT 3 (2), 2014. Nothing where x or y is outside [-1, 1].
+/// Unpacks an octahedral direction:
+/// v = (x, y, 1 - |x| - |y|); where v.z < 0, v.xy = (1 - |v.yx|) sign(v.xy); n = v / |v|.
+/// Nothing where x or y is NaN, or outside [-1, 1] by more than its fetch. Quirin Meyer et al., "On Floating-Point
+/// Normal Vectors", EGSR 2010; Zina H. Cigolle et al., "A Survey of Efficient Representations for Independent Unit
+/// Vectors", JCGT 3 (2), 2014.
 std::optional<UnpackedVector> unpacked_octahedral(const PackedNumber& x, const PackedNumber& y);
 
-/// Lambert's azimuthal equal-area projection of the sphere: f = 4 c - 2, n.xy = f sqrt(1 - f.f / 4), n.z = 1 - f.f / 2;
-/// packed as c = n.xy / sqrt(8 n.z + 8) + 1/2. Martin Mittring, "A bit more Deferred - CryEngine 3", Triangle Game
-/// Conference 2009; Aras Pranckevicius, "Compact Normal Storage for small G-Buffers", 2010, method 4. Nothing where c
-/// is farther from the middle than any direction is packed to.
+/// Unpacks a direction from Lambert's azimuthal equal-area projection of the sphere:
+/// f = 4 c - 2, n.xy = f sqrt(1 - f.f / 4), n.z = 1 - f.f / 2; packed as c = n.xy / sqrt(8 n.z + 8) + 1/2.
+/// Nothing where c is NaN, or farther from the middle than any direction is packed to. Martin Mittring, "A bit more
+/// Deferred - CryEngine 3", Triangle Game Conference 2009; Aras Pranckevicius, "Compact Normal Storage for small
+/// G-Buffers", 2010, method 4.
 std::optional<UnpackedVector> unpacked_spheremap(const PackedNumber& x, const PackedNumber& y);
 
 }  // namespace trueshade

@@ -77,6 +77,7 @@ void MpiRanks::leave(int exit_code) {
   serving_.join();
 }
 
+/// Starts MPI, and tells and learns which processes there are. Waits for all of them without a time limit.
 void MpiRanks::join() {
   int level = 0, size = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level);
@@ -104,6 +105,7 @@ void MpiRanks::join() {
   }
 }
 
+/// The thread: joins, then sends and receives until leave() is called and all letters are handed to MPI, then finishes.
 void MpiRanks::serve() {
   join();
   Traffic traffic(MPI_COMM_WORLD, count());
@@ -132,6 +134,9 @@ void MpiRanks::serve() {
   finish(traffic);
 }
 
+/// Waits for what is under way, for some seconds, and ends MPI. Where a rank is forgotten it ends this process instead,
+/// and on rank 0 the others too; where mpirun goes on without those that die, it ends only this process and the
+/// forgotten ones of this machine.
 void MpiRanks::finish(Traffic& traffic) {
   std::deque<RankMessage> unread;
   for (const Clock::time_point end = Clock::now() + kPatience; !traffic.all_sent(members_) && Clock::now() < end;) {
@@ -163,6 +168,7 @@ void MpiRanks::end_forgotten() {
       kill(member.process.number, SIGKILL);
 }
 
+/// Whether the process of a forgotten rank of this machine has ended.
 bool MpiRanks::any_forgotten_has_ended() const {
   for (int rank = 0; rank < count(); ++rank)
     if (members_[size_t(rank)].forgotten && has_ended(rank)) return true;

@@ -19,8 +19,10 @@ class MpiRanks : public Ranks {
  public:
   /// Waits for all other processes, for two minutes; has_joined() tells whether all came.
   MpiRanks();
+  /// Lets the thread go on if leave() was not called: the process ends soon.
   ~MpiRanks() override;
 
+  /// Whether all processes came.
   bool has_joined() const { return joined_; }
 
   int own() const override { return own_; }
@@ -49,7 +51,7 @@ class MpiRanks : public Ranks {
   using Lock = std::unique_lock<std::mutex>;
 
   void join();
-  void serve();  // the thread
+  void serve();
   void finish(Traffic& traffic);
   void end_forgotten();
   bool any_forgotten() const;

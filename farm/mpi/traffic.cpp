@@ -31,6 +31,7 @@ bool MpiRanks::Traffic::advance(std::deque<RankMessage>& complete, const std::de
   return moved;
 }
 
+/// Drops the pieces that have been sent; returns whether there were any. Pieces to a forgotten rank stay.
 bool MpiRanks::Traffic::advance_sent(const std::deque<Member>& members) {
   bool moved = false;
   for (auto sent = sent_.begin(); sent != sent_.end();) {
@@ -57,6 +58,8 @@ bool MpiRanks::Traffic::accept() {
   return true;
 }
 
+/// Takes the next piece of a rank's messages, if it has arrived whole, and appends the message to `complete` where the
+/// piece is its last. Returns whether a piece had arrived.
 bool MpiRanks::Traffic::advance_source(int rank, std::deque<RankMessage>& complete) {
   Source& source = from_[size_t(rank)];
   if (source.pieces.empty()) return false;

@@ -12,12 +12,15 @@ namespace trueshade {
 /// Messages under way. Long ones go in pieces, of which all but the last have the tag kMore.
 class MpiRanks::Traffic {
  public:
+  /// Messages among `ranks` ranks of the communicator.
   explicit Traffic(MPI_Comm communicator, int ranks) : communicator_(communicator), from_(size_t(ranks)) {}
 
+  /// Begins to send a letter, and keeps its bytes until they are sent. Does not wait.
   void send(Letter letter);
-  /// Goes on sending and receiving, without waiting, and appends each message that has arrived whole. Returns whether
-  /// anything moved.
+  /// Goes on sending and receiving, without waiting, and appends each message that has arrived whole to `complete`.
+  /// Returns whether anything moved.
   bool advance(std::deque<RankMessage>& complete, const std::deque<Member>& members);
+  /// Whether nothing is left to be sent but to members that are forgotten.
   bool all_sent(const std::deque<Member>& members) const;
 
  private:

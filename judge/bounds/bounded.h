@@ -33,20 +33,23 @@ inline constexpr double kSmallestFloat = 0x1p-126;
 /// The real result, and a bound on |computed - value|.
 struct Bounded {
   double value = 0, error = 0;
+  /// The least that the computed number may be.
   double low() const { return value - error; }
+  /// The most that the computed number may be.
   double high() const { return value + error; }
 };
 using Bounded3 = std::array<Bounded, 3>;
 
-/// One rounding of a result that inherits `error`.
+/// A result that inherits `error` and is rounded once, by `relative` of it.
 inline Bounded rounded(double value, double error, double relative) {
   return {value, error + relative * (std::fabs(value) + error) + kSmallestFloat};
 }
 
+/// x - y, rounded once.
 inline Bounded difference(const Arithmetic& a, const Bounded& x, const Bounded& y) {
   return rounded(x.value - y.value, x.error + y.error, a.roundoff);
 }
-/// An infinite error stays one where the other factor is 0: nothing is known of that product.
+/// x y, rounded once. An infinite error stays one where the other factor is 0: nothing is known of that product.
 inline Bounded product(const Arithmetic& a, const Bounded& x, const Bounded& y) {
   const double error = std::fabs(x.value) * y.error + std::fabs(y.value) * x.error + x.error * y.error;
   return rounded(x.value * y.value, error >= 0 ? error : HUGE_VAL, a.roundoff);
@@ -60,7 +63,8 @@ inline Bounded quotient(const Arithmetic& a, const Bounded& x, const Bounded& y)
   return rounded(q, (x.error + std::fabs(q) * y.error) / room, a.divide);
 }
 
-/// Three products and two sums in any order, contracted or not: a product passes at most three roundings.
+/// The inner product: three products and two sums in any order, contracted or not. A product passes at most three
+/// roundings.
 inline Bounded dot(const Arithmetic& a, const Bounded3& x, const Bounded3& y) {
   Bounded r;
   double magnitude = 0;
@@ -87,8 +91,8 @@ inline Bounded square_root(const Arithmetic& a, const Bounded& x) {
   return rounded(root, inherited, a.square_root);
 }
 
-/// The part of x^s that exp2(s * log2 x) of an exact x > 0 errs by. log2 errs by 3 ulp outside [0.5, 2], by 2^-21 inside;
-/// the product by one rounding; exp2 by 3 + 2|y| ulp, y = s log2 x (GLSL 4.60, 4.7.1). Exact_pow: one rounding.
+/// The part of x^s that exp2(s * log2 x) of an exact x > 0 may err by. log2 errs by 3 ulp outside [0.5, 2], by 2^-21
+/// inside; the product by one rounding; exp2 by 3 + 2|y| ulp, y = s log2 x (GLSL 4.60, 4.7.1). Exact_pow: one rounding.
 double relative_power_error(const Arithmetic& a, double x, double s);
 
 }  // namespace trueshade::oracle

@@ -3,6 +3,7 @@
 
 namespace trueshade::oracle {
 
+/// An interval of an edge function.
 struct EdgeSpan {
   double low, high;
 };

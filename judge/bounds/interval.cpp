@@ -11,13 +11,15 @@ namespace {
 using programs::Op;
 using programs::ProgramNode;
 
-/// Whether all of it is below 2^-126.
+/// Whether all of it is below 2^-126 in size.
 bool is_subnormal(const Interval& x) { return x.size() < kSmallestFloat; }
 
+/// A truth value: what real arithmetic has, whether it may be true, and whether it may be false.
 Interval truth(bool nominal, bool perhaps, bool perhaps_not) {
   return {nominal ? 1.0 : 0.0, perhaps_not ? 0.0 : 1.0, perhaps ? 1.0 : 0.0, false};
 }
 
+/// A comparison. What may be NaN leaves < and <= open; == may be false then, and != true.
 Interval compared(Op op, const Interval& x, const Interval& y) {
   const bool nan = x.maybe_nan || y.maybe_nan, known = x.known() && y.known();
   switch (op) {
@@ -33,6 +35,7 @@ Interval compared(Op op, const Interval& x, const Interval& y) {
   }
 }
 
+/// A choice: one of both where the condition is known, else the hull of both.
 Interval chosen(const Interval& condition, const Interval& x, const Interval& y) {
   if (condition.is_true()) return x;
   if (condition.is_false()) return y;
@@ -93,6 +96,7 @@ double IntervalArithmetic::below(double x) const {
   return std::nextafterf(nearest, -HUGE_VALF);
 }
 
+/// The least float that is not below x; the nearest float likewise.
 double IntervalArithmetic::above(double x) const {
   const float nearest = float(x);
   if (double(nearest) >= x || a_.roundoff <= 0x1p-24) return nearest;
@@ -174,7 +178,7 @@ Interval IntervalArithmetic::sum(std::span<const Interval> terms, double more) c
   return rounded(out);
 }
 
-/// Where a driver may fuse a product with a sum it is not rounded.
+/// A product that a driver may fuse with a sum: rounded, or exact.
 Interval IntervalArithmetic::maybe_fused(const Interval& exact) const {
   Interval out = rounded(exact);
   if (!a_.exact_pow) out.low = std::min(out.low, exact.low), out.high = std::max(out.high, exact.high);

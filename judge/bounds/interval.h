@@ -18,29 +18,35 @@ struct Interval {
   double value = 0, low = 0, high = 0;
   bool maybe_nan = false;
 
+  /// A number that is known; NaN is one that may be NaN.
   static Interval of(double x) { return {x, x, x, std::isnan(x)}; }
   /// A float that was made of the number by one rounding, maybe of another formula.
   static Interval rounded_once(double x) {
     return {x, x - 0x1p-23 * std::fabs(x), x + 0x1p-23 * std::fabs(x), std::isnan(x)};
   }
+  /// Any number, infinity and NaN.
   static Interval anything() { return {0, -HUGE_VAL, HUGE_VAL, true}; }
+  /// Whether it is one number.
   bool known() const { return low == high && !maybe_nan; }
+  /// Whether a truth value is surely true.
   bool is_true() const { return low > 0 && !maybe_nan; }
+  /// Whether a truth value is surely false.
   bool is_false() const { return high <= 0 && !maybe_nan; }
   double size() const { return std::max(std::fabs(low), std::fabs(high)); }  ///< the largest magnitude
 };
 
+/// The interval of a bounded number; anything where its value or its error is NaN.
 Interval interval_of(const Bounded& x);
 
 /// The value, and the distance to the farther end as its error; an infinite error where it may be NaN.
 Bounded bounded_of(const Interval& x);
 
-/// The smallest interval that holds both; with the value of x.
+/// The smallest interval that holds both, with the value of x. It may be NaN where one of both may.
 Interval hull(const Interval& x, const Interval& y);
 
 inline constexpr double kLargestFloat = double(std::numeric_limits<float>::max());
 
-/// Whether some of it is below 2^-126.
+/// Whether it holds a number below 2^-126 in size, 0 among them.
 inline bool may_be_subnormal(const Interval& x) { return x.low < kSmallestFloat && x.high > -kSmallestFloat; }
 
 /// f(x) of a function that only grows, or only falls, from x.low to x.high: the ends and the value are f of those of x,
@@ -55,6 +61,7 @@ Interval monotone(const Interval& x, F f) {
 /// operands that the given intervals hold.
 class IntervalArithmetic {
  public:
+  /// By the errors of this arithmetic.
   explicit IntervalArithmetic(const Arithmetic& arithmetic) : a_(arithmetic) {}
 
   /// The node's operation on operands x, y, z, of which as many are read as it has. Not for `constant` and `input`.
@@ -64,6 +71,7 @@ class IntervalArithmetic {
   Interval sum(std::span<const Interval> terms, double more = 0) const;
   /// A product of products, whose factors a driver may multiply in another order: its roundings are other ones then.
   Interval reordered(const Interval& product) const { return within(product, a_.roundoff); }
+  /// x x, which is never below 0.
   Interval square(const Interval& x) const;
   /// What normalize() multiplies a vector by, as WGSL may have it.
   Interval normalizing(const Interval& inverse_root) const { return within(inverse_root, normalize_error(a_)); }

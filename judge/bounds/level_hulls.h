@@ -22,23 +22,25 @@ struct LevelReading {
   auto operator<=>(const LevelReading&) const = default;
 };
 
-/// For any number of threads. Textures must outlive it unchanged.
+/// Keeps the hulls and codes of levels. For any number of threads. Textures must outlive it unchanged.
 class LevelHulls {
  public:
   using Hull = std::array<std::array<double, 2>, 4>;  ///< least and largest of R, G, B, A
 
+  /// The hull of a reading; nothing where none was kept.
   std::optional<Hull> find(const LevelReading& of) const {
     const std::lock_guard lock(mutex_);
     const auto found = hulls_.find(of);
     return found == hulls_.end() ? std::nullopt : std::optional(found->second);
   }
+  /// Keeps the hull of a reading; one that is kept already stays.
   void keep(const LevelReading& of, const Hull& hull) {
     const std::lock_guard lock(mutex_);
     hulls_.emplace(of, hull);
   }
 
-  /// Of a level of 8-bit texels the codes that occur in each channel: looked for once, whatever they are read as.
-  using Codes = std::array<std::bitset<256>, 4>;
+  using Codes = std::array<std::bitset<256>, 4>;  ///< of R, G, B, A
+  /// The codes that occur in each channel of a level of 8-bit texels. Reads the whole level at the first call.
   std::shared_ptr<const Codes> codes_of(const Texture& texture, size_t level) {
     const std::pair key{&texture, level};
     {

@@ -15,7 +15,8 @@ constexpr double kSmallestW = 0x1p-126;  // below it a float is denormal, which 
 
 }  // namespace
 
-/// Of an instance whose material is double-sided no back is culled; of one that mirrors front and back are exchanged.
+/// Which faces of an instance are culled, and which is its front. No back is culled where the material is double-sided;
+/// front and back are exchanged where the instance mirrors.
 Projector::Faces Projector::faces_of(uint32_t instance) const {
   const Instance& i = scene_.instances[instance];
   Faces faces{pipeline_.geometry.cull_face, pipeline_.geometry.front_face};

@@ -78,9 +78,10 @@ struct StoreRule {
   bool operator==(const StoreRule&) const = default;
 };
 
-/// One line, such as `codes within 0.6, halves toward zero`.
+/// A rule in one line, such as `codes within 0.6, halves toward zero`.
 std::string text(const StoreRule& rule);
 
+/// What one implementation, or a class of them, may do.
 struct Profile {
   std::string name = "unknown";
   int subpixel_bits = 4;  ///< GL's minimum (GL 4.6, table 23.53), unless the driver says more
@@ -106,12 +107,15 @@ struct Profile {
   Arithmetic arithmetic;
 };
 
-/// The profile of a name in kDriverProfileNames; nothing for other names.
+/// The profile of a name in kDriverProfileNames; nothing for other names. The half mode of `ideal` follows the pipeline
+/// (resolved()); that of the others is their own.
 std::optional<Profile> profile_named(std::string_view name);
 
-/// Ideal's half mode follows the pipeline; the others' is their own.
+/// A rule of snapping in words.
 const char* text(SnapRule rule);
+/// What planes go through, in words.
 const char* text(PlaneOrigin origin);
+/// How halves are stored, in words.
 const char* text(HalfStore store);
 
 }  // namespace trueshade::oracle

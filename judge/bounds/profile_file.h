@@ -10,8 +10,8 @@ namespace trueshade::oracle {
 /// All fields of a profile in a fixed order, a line each: equal profiles are equal texts.
 std::string profile_json(const Profile& profile);
 
-/// Fields that the text does not give are those of `unknown`. Error(bad_input) with a JSON pointer behind `where`, for
-/// unknown keys and values out of range too.
+/// Reads a profile. Fields that the text does not give are those of `unknown`. Error(bad_input) with a JSON pointer
+/// behind `where` for what is no JSON, for unknown keys, and for values of another type or out of range.
 Profile profile_from_json(std::string_view text, std::string_view where);
 
 }  // namespace trueshade::oracle

@@ -53,7 +53,7 @@ bool ProgramBounds::suits_lanes() const {
   return slots_[size_t(Rate::surface)] + slots_[size_t(Rate::light)] + slots_[size_t(Rate::pair)] <= kMostLaneSlots;
 }
 
-/// Where some surfaces may be.
+/// A box about the places where some surfaces may be.
 struct ProgramBounds::Box {
   std::array<double, 3> low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
 

@@ -15,7 +15,8 @@ namespace trueshade::oracle {
 
 struct ProgramTotal;
 
-/// The pipeline as the judge takes it; of a pipeline without a light program the same. Error as of ProgramBounds.
+/// The pipeline as the judge takes it: with the planes that its light program reads; of a pipeline without a light
+/// program the same. Throws as ProgramBounds does.
 Pipeline with_planes_that_program_reads(const Pipeline& pipeline);
 
 /// What lights add alone, by the order they were asked for in. Kept by the caller from pixel to pixel.
@@ -46,20 +47,23 @@ class ProgramBounds {
     uint32_t light = 0;
   };
 
-  /// Error as programs::program_from_glsl() has it; Error(usage) where a parameter has no value.
+  /// Compiles the program, and computes what holds for the frame and for each light. Throws as
+  /// programs::program_from_glsl() does; Error(usage) where a parameter has no value.
   ProgramBounds(const Scene& scene, const Pipeline& pipeline, const Arithmetic& arithmetic);
   /// Another program in place of the pipeline's, of the same inputs.
   ProgramBounds(const Scene& scene, const Pipeline& pipeline, const Arithmetic& arithmetic, programs::Program program);
 
+  /// The program, which lives as long as this object.
   const programs::Program& program() const { return program_; }
   /// Whether the pipeline has a light program, and not a light model.
   bool is_users() const { return is_users_; }
 
-  /// The sum of these lights, before finish().
+  /// The sum of these lights and of what it starts from, before finish(). Undefined where the sum may be NaN.
   LitRange at(const ShadedSurface& surface, std::span<const uint32_t> lights, Registers& registers) const;
 
-  /// One light without what a sum starts from. ends: at its extent, where it has one; not where that leaves fragments
-  /// out, and so is judged apart.
+  /// What one light adds, without what a sum starts from.
+  ///   ends: the light ends at its extent, where it has one; false where the extent leaves fragments out, and so is
+  ///         judged apart
   LitRange alone(const ShadedSurface& surface, uint32_t light, bool ends, Registers& registers) const;
 
   /// What is known of surfaces or lights that are judged together. One thread's.
@@ -70,12 +74,12 @@ class ProgramBounds {
     Registers registers;
   };
 
-  /// Lights that may add something to any of these surfaces, or count: those whose terms are not proved to be 0 by the
-  /// program's own intervals over all that the surfaces hold.
+  /// Sets `near` to the lights that may add something to any of these surfaces, or count: those whose terms are not
+  /// proved to be 0 by the program's own intervals over all that the surfaces hold.
   void take_near(std::span<const ShadedSurface* const> surfaces, Block& block, std::vector<uint32_t>& near) const;
 
-  /// alone() of each of these lights, a light a lane. The values are the same; where nothing may be NaN, bounds are no
-  /// smaller.
+  /// Sets `lit` to alone() of each of these lights, a light a lane. The values are the same; where nothing may be NaN,
+  /// bounds are no smaller.
   void apart(const ShadedSurface& surface, std::span<const uint32_t> lights, bool ends, Block& block,
              LitApart& lit) const;
 
@@ -85,8 +89,8 @@ class ProgramBounds {
     std::array<double, 3> magnitude{};
     int added = 0, lights_low = 0, lights_high = 0;
   };
-  /// The same of at most kIntervalLanes surfaces, in lanes. The same lights, branches and counts; bounds are no smaller
-  /// where nothing may be NaN.
+  /// Sets `lit` to at() of each of at most kIntervalLanes surfaces, in lanes. The lights, branches and counts are the
+  /// same; bounds are no smaller where nothing may be NaN.
   void at(std::span<const ShadedSurface* const> surfaces, std::span<const uint32_t> lights, Block& block,
           std::span<LitRange> lit) const;
 
@@ -95,6 +99,7 @@ class ProgramBounds {
     std::array<Bounded, 4> color;
     bool undefined = false;
   };
+  /// Runs finish() on a sum.
   Finished finished(const ShadedSurface& surface, const Bounded3& sum, Registers& registers) const;
 
   /// Whether the program reads a field, "surface.uv", or a part of it.

@@ -51,8 +51,8 @@ constexpr Row<SurfaceField> kSurface[] = {{"position", [](S s, size_t c) { retur
 
 double outer_cosine(const Light& l) { return std::cos(double(l.cone_rad) + double(l.penumbra_rad)); }
 double cone_width(const Light& l) { return 1 / std::max(0.001, std::cos(double(l.cone_rad)) - outer_cosine(l)); }
-/// Of a smooth cone that is lit whole from this cosine on. The edges are floats before they are subtracted, and may be
-/// the next ones.
+/// The slope of a smooth cone that is lit whole from the cosine `lit` on. The edges are floats before they are
+/// subtracted, and may be the next ones.
 Interval slope(const Light& l, double lit) {
   const double width = double(float(lit)) - double(float(outer_cosine(l))), off = 0x1p-22;
   if (!(width > off)) return Interval::rounded_once(1 / width);

@@ -15,6 +15,7 @@ struct ProgramPlace {
   uint8_t rate = 0;
   uint32_t slot = 0;
 };
+/// A term of a sum.
 struct ProgramTerm {
   ProgramPlace from;
   bool negated = false;
@@ -48,12 +49,16 @@ inline constexpr size_t kIntervalLanes = 64;
 struct LaneInterval {
   alignas(64) std::array<double, kIntervalLanes> value, low, high;
 
+  /// The interval of a lane; it may be NaN where it reaches from -infinity to infinity.
   Interval at(size_t lane) const;
+  /// Sets a lane; to anything where x may be NaN.
   void set(size_t lane, const Interval& x);
-  Interval hull(size_t count) const;  ///< of the first lanes, one or more
+  /// The hull of the first lanes, one or more.
+  Interval hull(size_t count) const;
 };
 
-/// Of each rate the values are one for all lanes, or lanes; `out` is where the steps' own results go.
+/// What run_program_lanes() reads and writes. The values of each rate are one for all lanes, or lanes; `out` is where
+/// the steps' own results go.
 struct ProgramLanes {
   std::span<const ProgramStep> steps;
   std::span<const ProgramTerm> terms;
@@ -66,8 +71,8 @@ struct ProgramLanes {
   size_t count = kIntervalLanes;  ///< lanes that are asked for: the first
 };
 
-/// Results hold those of ProgramBounds one by one, but where lanes are left; they are wider by no more than what NaN
-/// makes of the others.
+/// Runs the steps over all lanes: writes in.out and, if it is asked for, in.left. Results hold those of ProgramBounds
+/// one by one, but where lanes are left; they are wider by no more than what NaN makes of the others.
 void run_program_lanes(const ProgramLanes& in);
 
 }  // namespace trueshade::oracle

@@ -34,7 +34,7 @@ HWY_INLINE Three chosen(M condition, const Three& x, const Three& y) {
 HWY_INLINE Three negated(const Three& x) { return {hn::Neg(x.value), hn::Neg(x.high), hn::Neg(x.low)}; }
 HWY_INLINE V size_of(const Three& x) { return hn::Max(hn::Abs(x.low), hn::Abs(x.high)); }
 
-/// Where the results of steps lie, and what rounds them.
+/// Runs steps over lanes: knows where their results lie, and what rounds them.
 class Lanes {
  public:
   explicit Lanes(const ProgramLanes& in) : in_(in), to_nearest_(in.arithmetic.roundoff <= 0x1p-24) {}
@@ -302,7 +302,7 @@ class Lanes {
     return chosen(surely, x, chosen(never, y, both));
   }
 
-  /// x^s of whole s from 1 on by squaring, s 2^-52 of itself off.
+  /// x^s of whole s from 1 on, by squaring. The result is within s 2^-52 of itself; s is not checked.
   static V powered(V x, V s) {
     const DI d;
     VI left = hn::ConvertTo(d, s);
@@ -314,8 +314,9 @@ class Lanes {
       if (hn::AllTrue(d, hn::Eq(left, hn::Zero(d)))) return result;
     }
   }
-  /// The error of pow, of itself; not WGSL's, which is made of two functions. |log2 x| is taken from above, by the
-  /// exponent and the chord of log2 over a mantissa, or next to 1 by |x - 1| / min(x, 1).
+  /// Bound on the relative error of pow(x, s); not of WGSL's pow, which is made of two functions. Infinite where the
+  /// bound on the exponent's error exceeds 1. |log2 x| is taken from above, by the exponent and the chord of log2 over
+  /// a mantissa, or next to 1 by |x - 1| / min(x, 1).
   V power_error(V x, V s) const {
     if (in_.arithmetic.exact_pow) return hn::MulAdd(number(0x1p-45), s, number(0x1p-24));
     constexpr double kUlp = 0x1p-23, kLn2 = 0.69314718055994531;
@@ -376,7 +377,7 @@ class Lanes {
     }
   }
 
-  /// Of each vector of lanes.
+  /// Stores f(i) as the step's result for each vector of lanes, which begins at lane i.
   template <class F>
   void each(const ProgramStep& step, F f) const {
     for (size_t i = 0; i < in_.count; i += hn::Lanes(D())) store(step, i, f(i));

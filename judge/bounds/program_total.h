@@ -16,6 +16,7 @@ struct ProgramTotal {
   std::array<double, 3> magnitude{};
   int added = 0;
 
+  /// Sets channel k of what the sum starts from. Called for each channel, before any light is added.
   void start(size_t k, const Interval& x) {
     lit.color[k] = bounded_of(x);
     lit.undefined = lit.undefined || x.maybe_nan || !std::isfinite(lit.color[k].error);
@@ -64,6 +65,7 @@ struct ProgramTotal {
     lit.branches.push_back(other);
   }
 
+  /// Adds what lights of a block add, and sets the counts of lights to theirs.
   void add(const ProgramBounds::BlockSum& sum) {
     added += sum.added;
     lit.lights_low = sum.lights_low, lit.lights_high = sum.lights_high;
@@ -73,6 +75,7 @@ struct ProgramTotal {
     }
   }
 
+  /// The sum, with what the roundings of its additions may move it by in its error. Called once, at the end.
   LitRange finished(double roundoff) {
     for (size_t k = 0; k < 3 && added > 1; ++k)
       lit.color[k].error += (added - 1) * roundoff * (magnitude[k] + lit.color[k].error);

@@ -28,6 +28,7 @@ struct OtherBranch {
   std::array<double, 3> change{};
 };
 
+/// What lights may add up to at a surface.
 struct LitRange {
   Bounded3 color;  ///< the nominal branches, all lights summed
   std::vector<OtherBranch> branches;

@@ -49,7 +49,7 @@ struct Piece {
 /// How surely a piece has a sample.
 enum class Cover : uint8_t { no, maybe, certain };
 
-/// Coverage of the sample (x, y), pixels; edge i runs from vertex i+1 to vertex i+2. Edge interval: with A and B the
+/// How a piece covers a sample; edge i runs from vertex i+1 to vertex i+2. The interval of an edge: with A and B the
 /// ends relative to the sample, each coordinate in its own interval, E = Ax By - Ay Bx; the four occur once each, so
 /// interval arithmetic gives the exact hull. It contains the sum (|dx| + |dy|) e_v of docs/gl_rules.md section 9.
 struct Coverage {
@@ -58,7 +58,9 @@ struct Coverage {
   double chance_other = 0;       ///< predicted probability that the sample is not where nominal vertices put it
   bool nominal = true;           ///< covered where every interval is at its middle
 };
-/// Edges that are not in `edges` are known to have the sample inside.
+
+/// The coverage of the sample (x, y), pixels, y up. Cover::maybe at best where the piece's facing is not known.
+///   edges: bit i: edge i is looked at; the others are known to have the sample inside
 Coverage coverage_at(const Piece& piece, const Profile& profile, ClipOrigin origin, double x, double y,
                      unsigned edges = 7);
 
@@ -68,25 +70,30 @@ struct BoxCoverage {
   bool none = false;   ///< no sample is covered
   unsigned edges = 7;  ///< bit i: some sample may not be inside of edge i; 0: all are certain
 };
+
+/// The coverage of every sample of a box. Nothing is known where the piece's facing is not.
 BoxCoverage coverage_of_box(const Piece& piece, const Pair& low, const Pair& high);
 
-/// Signed area times two of (a, b, sample), exactly antisymmetric in a and b; 0 is decided by the edge's direction, so
-/// that a closed mesh of `exact` vertices has a definite winding number about every sample.
+/// Whether the sample (x, y) lies to the left of a -> b by the vertices' `exact` places: by the sign of twice the area
+/// of (a, b, sample), which is exactly antisymmetric in a and b. 0 is decided by the edge's direction, so that a closed
+/// mesh has a definite winding number about every sample.
 bool nominally_left(const WindowVertex& a, const WindowVertex& b, double x, double y);
 
 /// Vertices of a scene into the window, under a profile.
 class Projector {
  public:
+  /// Borrows the scene.
   /// drawn_at: the window pixel that the picture's lower left one was. GL's rules move with it (14.2); floats do not.
   /// hulls: of the scene's textures, as another projector of the scene knows them; null: none are known.
   Projector(const Scene& scene, const Pipeline& pipeline, const Profile& profile, std::array<int, 2> drawn_at = {},
             std::shared_ptr<LevelHulls> hulls = nullptr);
 
-  /// Whether the triangle may have a sample, and the pixels it may have, y up. Cheap: most triangles of a fine mesh
-  /// have none.
+  /// Whether the triangle may have a sample; then sets `rect` to the pixels that it may have, y up. Cheap: most
+  /// triangles of a fine mesh have none.
   bool near_pixels(uint32_t instance, uint32_t triangle, PixelRect& rect) const;
 
-  /// What is left of the triangle after near, far and w; back to `out`, which is cleared.
+  /// Sets `out` to the pieces that are left of the triangle after near, far and w; to none where a clip coordinate is
+  /// NaN or infinite.
   void pieces(uint32_t instance, uint32_t triangle, std::vector<Piece>& out) const;
 
   /// Clip coordinates as floats in the order of docs/arithmetic.md: equal ones make equal fragments (GL 4.6, appendix
@@ -95,12 +102,19 @@ class Projector {
 
   /// The largest |x|, |y| of the viewport in the driver's window, where planes are made.
   const Pair& window_reach() const { return window_reach_; }
+  /// The camera's matrix, in double.
   const Matrix4& clip_from_world() const { return clip_from_world_; }
+  /// The profile that vertices are bounded by.
   const Profile& profile() const { return profile_; }
+  /// The pipeline, a copy of its own.
   const Pipeline& pipeline() const { return pipeline_; }
+  /// The scene, which is borrowed.
   const Scene& scene() const { return scene_; }
-  const std::shared_ptr<LevelHulls>& level_hulls() const { return level_hulls_; }  ///< of the scene's textures
+  /// The hulls of the scene's textures, for another projector of the scene.
+  const std::shared_ptr<LevelHulls>& level_hulls() const { return level_hulls_; }
+  /// Pixels of the picture.
   int width() const { return pipeline_.width; }
+  /// Pixels of the picture.
   int height() const { return pipeline_.height; }
 
  private:

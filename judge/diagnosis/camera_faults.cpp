@@ -20,7 +20,7 @@ void set_matrix(Scene& s, const Matrix4& m) {
   for (size_t i = 0; i < 16; ++i) (*s.camera.clip_from_world)[i] = float(m[i]);
   s.camera.matrix_has_gl_range = false;
 }
-/// a * b.
+/// The product a * b.
 Matrix4 times_matrix(const Matrix4& a, const Matrix4& b) {
   Matrix4 m;
   for (size_t c = 0; c < 4; ++c) {
@@ -50,7 +50,7 @@ bool move_target(Scene& s, Pipeline&, const P& by) {
   s.camera.target += vec3_of(by.vector);
   return s.camera.eye != s.camera.target;
 }
-/// About its own axes right, up and back.
+/// Turns the camera about its own axes right, up and back, by degrees.
 bool turn_camera(Scene& s, Pipeline& p, const P& by) {
   if (by.vector == Triple3{}) return false;
   const std::array<Triple3, 3> axes = view_axes(s.camera, p);
@@ -76,7 +76,7 @@ bool turn_camera(Scene& s, Pipeline& p, const P& by) {
   set_matrix(s, times_matrix(matrix_of(s, p), m));
   return true;
 }
-/// Rows of the matrix times a number.
+/// Multiplies the rows x and y of the camera's matrix.
 void scale_rows(Scene& s, const Pipeline& p, double x, double y) {
   Matrix4 m = matrix_of(s, p);
   for (size_t c = 0; c < 4; ++c) m[4 * c] *= x, m[4 * c + 1] *= y;
@@ -116,7 +116,7 @@ bool other_far(Scene& s, Pipeline&, const P& by) {
   s.camera.far = float(double(s.camera.far) * by.vector[0]);
   return s.camera.near < s.camera.far;
 }
-/// Pixels to the right and up, as a jitter of the projection moves them.
+/// Moves all by pixels to the right and up, as a jitter of the projection does.
 bool jitter(Scene& s, Pipeline& p, const P& by) {
   if (by.vector == Triple3{}) return false;
   Matrix4 m = matrix_of(s, p);
@@ -128,7 +128,7 @@ bool jitter(Scene& s, Pipeline& p, const P& by) {
   set_matrix(s, m);
   return true;
 }
-/// The projection stays, though its aspect would follow the viewport.
+/// Gives the viewport another size. The projection stays, though its aspect would follow the viewport.
 bool resize_viewport(Scene& s, Pipeline& p, const P& to) {
   const Viewport now = resolved_viewport(p.geometry, p.width, p.height);
   const int width = int(to.vector[0]), height = int(to.vector[1]);
@@ -165,6 +165,7 @@ struct Window {
   Triple3 origin{}, size{};
   bool known = false;
 };
+/// The viewport that the captured positions tell; not known where they were not captured.
 Window window_of(const PlaneEvidence& e) {
   Window w;
   if (!e.has_plane(Plane::position)) return w;

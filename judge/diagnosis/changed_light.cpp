@@ -16,6 +16,7 @@ constexpr size_t kTerms = 8000;       ///< lights and pixels together, by which 
 constexpr double kScale = 8;          ///< steps beyond which a pixel may have another fault
 constexpr size_t kFitted = 2;         ///< lights that are fitted to all pixels
 
+/// Finds the lights that may be wrong, and fits the fault's numbers. Borrows all that it is made from.
 class LightFit {
  public:
   LightFit(const PictureCase& picture, const PictureSupposition& supposed, const PictureFault& fault,
@@ -29,6 +30,7 @@ class LightFit {
     see_pixels();
   }
 
+  /// changed_lights(), where no tiles are supposed.
   std::vector<FaultParameter> best() const;
 
  private:
@@ -43,6 +45,7 @@ class LightFit {
   };
   void see_pixels();
   void add_up(Seen& seen) const;
+  /// A light of the pass with the fault of these numbers.
   Light changed(size_t light, const Triple3& vector) const {
     Light l = supposed_.pass.lights[light];
     fault_.one_light(l, vector);
@@ -71,7 +74,7 @@ class LightFit {
   Triple3 fitted(size_t light, const Triple3& from) const;
   std::optional<Triple3> first_step(size_t light, const Triple3& start, size_t most) const;
   void look_about(size_t light, double scale, Triple3& at) const;
-  /// What a light adds, where it is drawn at all.
+  /// What all fragments of a light add; 0 where it is not drawn.
   Triple3 term_of(const PredictedTerms& terms, const PlainSurface& surface, const Light& light) const {
     const int fragments = terms.fragments(surface, light);
     return fragments > 0 ? times(terms.term(surface, light), fragments) : Triple3{};
@@ -83,6 +86,7 @@ class LightFit {
       return term_of(PredictedTerms(supposed_.pass, s.surface), s.surface, here) != Triple3{};
     });
   }
+  /// What the pixels cost with the fault supposed beside the others.
   double cost(const FaultParameter& parameter) const {
     PictureSupposition s = supposed_;
     s.suppose(fault_, parameter);
@@ -97,10 +101,12 @@ class LightFit {
   const std::vector<double>& off_;
   bool codes_ = false, last_ = false, blends_ = false;
   double room_ = 0;           ///< steps that a store may be off
-  double farthest_ = kScale;  ///< steps that any pixel is off
+  double farthest_ = kScale;  ///< twice the most steps that a pixel is off, from kScale to 1e6
   std::vector<Seen> seen_;    ///< those that are not as they should be first
 };
 
+/// Sets seen_ to the pixels that show a surface, those that are wrong first, and farthest_. Differences that are not
+/// finite do not count.
 void LightFit::see_pixels() {
   for (size_t i = 0; i < pixels_.size(); ++i) {
     const SampledPixel& p = pixels_[i];
@@ -130,6 +136,7 @@ void LightFit::add_up(Seen& seen) const {
   }
 }
 
+/// The color of a pixel that receives `more` light of the changed one, under the faults that change a finished color.
 Color LightFit::Relit::at(const Seen& seen, const Triple3& more) const {
   if (!fit_.blends_) return fit_.shown(seen, more);
   if (more == Triple3{}) return fit_.afterwards(seen, seen.held);
@@ -145,6 +152,7 @@ Color LightFit::shown(const Seen& seen, const Triple3& more) const {
   return afterwards(seen, v);
 }
 
+/// A color under the faults that change a finished one; clamped to [0, 1] where the target holds codes.
 Color LightFit::afterwards(const Seen& seen, Color v) const {
   for (const PictureSupposition::Step& step : supposed_.steps)
     step.change(v, step.parameter, seen.pixel.x, seen.pixel.y);
@@ -165,7 +173,8 @@ double LightFit::size_of(size_t light) const {
 }
 
 /// Pixels are sampled by whether they are off, so what a store rounds away is not spread evenly over them, and counts
-/// for little. Every pixel counts for as much as the others, whatever its weight.
+/// for little. Every pixel counts for as much as the others, whatever its weight. NaN or infinite where one of the two
+/// is.
 double LightFit::off(const Seen& seen, const Color& value, int channel) const {
   constexpr double kShare = 0.05;
   const auto k = size_t(channel);
@@ -173,7 +182,8 @@ double LightFit::off(const Seen& seen, const Color& value, int channel) const {
   return std::copysign(std::max(0.0, std::fabs(steps) - room_), steps) + kShare * steps;
 }
 
-/// The normal equations of a step from `at`, each residual weighed by Cauchy's rule.
+/// The normal equations of a step from `at`, each residual weighed by Cauchy's rule, over about `most` pixels.
+/// Residuals that are not finite do not count.
 NormalEquations LightFit::equations(size_t light, const Triple3& at, size_t most, double scale) const {
   const double size = size_of(light);
   const Light here = changed(light, at);
@@ -217,7 +227,8 @@ NormalEquations LightFit::equations(size_t light, const Triple3& at, size_t most
   return n;
 }
 
-/// The sum of the residuals by Cauchy's rule, with the light changed by `at`, over about `most` pixels.
+/// The sum of the residuals by Cauchy's rule, with the light changed by `at`, over about `most` pixels. Residuals that
+/// are not finite do not count.
 double LightFit::error(size_t light, const Triple3& at, double scale, size_t most) const {
   const Light here = changed(light, at);
   const Relit relit(*this, light, here);
@@ -236,7 +247,8 @@ double LightFit::error(size_t light, const Triple3& at, double scale, size_t mos
   return sum;
 }
 
-/// Steps of least squares, shortened for as long as they lead nowhere (Levenberg and Marquardt).
+/// The numbers that steps of least squares lead to from `from`, shortened for as long as they lead nowhere (Levenberg
+/// and Marquardt). Looks about as well where the fault has other vectors to start from.
 Triple3 LightFit::fitted(size_t light, const Triple3& from) const {
   Triple3 at = from;
   for (const double scale : {farthest_, kScale}) {  // what is far off counts for much at first, and then for little
@@ -268,7 +280,8 @@ std::optional<Triple3> LightFit::first_step(size_t light, const Triple3& start, 
   return is_factor ? std::optional(at) : std::nullopt;
 }
 
-/// Steps along each number, ever smaller: where a light ends without fading there is no slope.
+/// Moves `at` by steps along each number, ever smaller, for as long as they lead to less: where a light ends without
+/// fading there is no slope.
 void LightFit::look_about(size_t light, double scale, Triple3& at) const {
   double least = error(light, at, scale);
   for (double step = 0.128; step > 5e-4; step /= 2)

@@ -14,10 +14,12 @@ namespace trueshade::oracle {
 
 namespace {
 
+/// A fault's name with the form of its parameter.
 std::string listed_name(std::string_view name, const ParameterForm& form) {
   return std::string(name) + (form.any() ? "=" + listed_parameter(form) : "");
 }
 
+/// A fault's text with letters in place of its numbers.
 std::string listed_text(std::string_view text, const ParameterForm& form) {
   constexpr const char* kVectors[] = {"", "X", "(X, Y)", "(X, Y, Z)"};
   std::string listed(text);
@@ -77,6 +79,7 @@ std::vector<Finding> best_of(std::vector<Finding> lines, std::vector<Finding> ot
   return out;
 }
 
+/// What diagnose() was given of the picture.
 struct Shown {
   const Scene& scene;
   const Pipeline& pipeline;
@@ -109,12 +112,14 @@ bool rounds_otherwise(std::span<const Finding> findings) {
                      [](const Finding& f) { return f.name == "store-nearest" || f.name == "store-truncated"; });
 }
 
+/// The pipeline with the other rule of rounding small floats.
 Pipeline rounding_otherwise(Pipeline pipeline) {
   HalfRound& rule = pipeline.gbuffer.half_round;
   rule = rule == HalfRound::nearest ? HalfRound::toward_zero : HalfRound::nearest;
   return pipeline;
 }
 
+/// How well the first finding explains the picture; 0 where there is none.
 double first_score(const std::vector<Finding>& findings) {
   return findings.empty() ? 0 : findings[0].explained - findings[0].contradicted;
 }

@@ -11,8 +11,8 @@ namespace trueshade::oracle {
 /// Two values agree if they differ by less than so many steps of what the plane stores.
 inline constexpr double kSameSteps = 0.5;
 
-/// What a disagreement of so many steps costs: nothing, or from 0.15 for one step to 1 for a thousand. Coming nearer
-/// counts for something, being right for much more.
+/// What a disagreement of so many steps costs: nothing below kSameSteps, else from 0.15 for one step to 1 for a
+/// thousand and more. Coming nearer counts for something, being right for much more.
 inline double cost_of(double steps) {
   if (steps < kSameSteps) return 0;
   return std::min(1.0, 0.15 + 0.085 * std::log2(std::max(1.0, steps)));
@@ -51,20 +51,22 @@ struct Disagreement {
 /// A number as a fault's name has it: a whole one with all its digits, others with at most five that count.
 std::string parameter_text(double value);
 
-/// The parameter of a fault as its name has it: a word, where there is one without spaces.
+/// The parameter of a fault as its name has it: the fault's word for it where that has no spaces, else the number.
 template <class Fault>
 std::string parameter_word(const Fault& fault, double value) {
   const std::string word = fault.says != nullptr ? fault.says(value) : parameter_text(value);
   return word.find(' ') == std::string::npos ? word : parameter_text(value);
 }
 
-/// A fault with its numbers: as a name, `light-range=1.01` or `light-moved=3:0.5,0,0`, and as a sentence.
+/// A fault with its numbers as a name: `light-range=1.01`, `light-moved=3:0.5,0,0`, or the name alone where it has
+/// none.
 template <class Fault>
 std::string fault_name(const Fault& fault, const FaultParameter& parameter) {
   const ParameterForm form = fault.form();
   const std::string name(fault.name);
   return form.any() ? name + "=" + parameter_name(form, parameter, parameter_word(fault, parameter.number)) : name;
 }
+/// A fault with its numbers as a sentence, without its full stop.
 template <class Fault>
 std::string fault_text(const Fault& fault, const FaultParameter& parameter) {
   const double number = parameter.number;

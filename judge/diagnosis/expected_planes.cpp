@@ -8,7 +8,8 @@ ExpectedPlanes::ExpectedPlanes(const Scene& scene, const Pipeline& pipeline, con
                                std::array<int, 2> drawn_at)
     : pipeline_(pipeline), projector_(scene, pipeline, profile, drawn_at), possible_(possible_surfaces(projector_)) {}
 
-/// Of those that nominal vertices put there, the first in the depth test's order.
+/// The surface that is nominally seen: of those that nominal vertices put there, the first in the depth test's order.
+/// Null where there is none.
 const PossibleSurface* ExpectedPlanes::seen(size_t pixel) const {
   const DepthFunc func = pipeline_.geometry.depth_func;
   const bool last_wins = func == DepthFunc::lequal || func == DepthFunc::gequal || func == DepthFunc::always;

@@ -27,11 +27,15 @@ struct ExpectedPixel {
   uint32_t triangle = 0;  ///< of the object's mesh
 };
 
+/// What each pixel of a G-buffer should hold. A pixel is made when it is first asked for, and kept.
 class ExpectedPlanes {
  public:
-  /// Borrows the scene.
+  /// Finds the possible surfaces of all pixels. Borrows the scene.
+  ///   drawn_at: the window pixel that the picture's lower left one was
   ExpectedPlanes(const Scene& scene, const Pipeline& pipeline, const Profile& profile, std::array<int, 2> drawn_at);
-  ExpectedPixel at(int x, int y_top) const;  ///< from any thread
+  /// The pixel's numbers; from any thread. Where nothing is drawn, they are 0, and the depth is the clear depth.
+  ExpectedPixel at(int x, int y_top) const;
+  /// Whether a surface is nominally seen.
   bool covered(int x, int y_top) const;
 
  private:

@@ -15,12 +15,14 @@ namespace {
 constexpr size_t kMostVoters = 120;
 constexpr double kRight = 1;  ///< a factor that changes nothing
 
+/// Estimates the parameter of one fault. Borrows all that it is made from.
 class Estimate {
  public:
   Estimate(const PictureCase& picture, const PictureSupposition& supposed, const PictureFault& fault,
            const std::vector<SampledPixel>& pixels, const std::vector<double>& off_if_right)
       : picture_(picture), supposed_(supposed), fault_(fault), pixels_(pixels), off_(off_if_right) {}
 
+  /// What the pixels cost with the fault supposed beside the others.
   double cost(double parameter) const { return picture_.disagreement(with(parameter), pixels_, off_).cost; }
   std::vector<double> best_of(std::span<const double> starts, size_t most) const;
   double smooth() const;
@@ -29,6 +31,7 @@ class Estimate {
   std::vector<FaultParameter> vectors() const;
 
  private:
+  /// What is supposed, and this fault.
   PictureSupposition with(double parameter) const {
     PictureSupposition s = supposed_;
     s.suppose(fault_, parameter);
@@ -37,6 +40,7 @@ class Estimate {
   struct Best {
     double parameter, cost;
   };
+  /// Sets `best` to the parameter if that costs less.
   void better(double parameter, Best& best) const {
     const double c = cost(parameter);
     if (c < best.cost) best = {parameter, c};
@@ -57,6 +61,7 @@ class Estimate {
   const std::vector<double>& off_;
 };
 
+/// The values of `starts` that cost least, at most `most`, the cheapest first.
 std::vector<double> Estimate::best_of(std::span<const double> starts, size_t most) const {
   std::vector<std::pair<double, double>> tried;
   for (const double start : starts) tried.emplace_back(cost(start), start);
@@ -121,7 +126,8 @@ double Estimate::short_number(double parameter) const {
   return parameter;
 }
 
-/// Steps of least squares from a parameter, for as long as they lead elsewhere.
+/// Goes by steps of least squares from a parameter, for as long as they lead elsewhere, and sets `best` to the cheapest
+/// place on the way.
 void Estimate::descend(double from, Best& best) const {
   for (int i = 0; i < 6; ++i) {
     const double next = stepped(from), moved = std::fabs(next / from - 1);
@@ -131,6 +137,8 @@ void Estimate::descend(double from, Best& best) const {
   }
 }
 
+/// The factor that costs least, by least squares from the best of the fault's starts or from 1, then narrowed and
+/// rounded. It may be one that comes no nearer than no fault.
 double Estimate::smooth() const {
   const double if_right = picture_.disagreement(supposed_, pixels_, off_).cost;
   const double start = best_of(fault_.starts, 1).front();
@@ -176,6 +184,8 @@ bool Estimate::fits(const Color& value, const SampledPixel& pixel, double steps)
   return true;
 }
 
+/// The lights, at most three, whose term times `sign` makes most wrong pixels as given when it is added; the likeliest
+/// first. Empty where there is none.
 std::vector<double> Estimate::lights(double sign) const {
   const LightPass& pass = supposed_.pass;
   const bool blends = blends_lights(pass.pipeline.strategy);
@@ -227,6 +237,8 @@ double round_number(uint32_t low, uint32_t high) {
   return double(low);
 }
 
+/// How many lights are drawn, of the scene's or of those in range of a pixel, that most wrong pixels agree with. Empty
+/// where no count makes any of them as given.
 std::vector<double> Estimate::counts(bool at_pixel) const {
   const LightPass& pass = supposed_.pass;
   const auto all = uint32_t(pass.lights.size());

@@ -12,7 +12,8 @@ struct FaultParameter {
   double number = 0;
   std::array<double, 3> vector{};
   double part = 0;
-  FaultParameter(double n = 0) : number(n) {}  // most faults have one number
+  FaultParameter(double n = 0) : number(n) {}  ///< one number, as most faults have
+  /// A light or an object, the fault's own numbers, and a part.
   FaultParameter(double of, const std::array<double, 3>& v, double p = 0) : number(of), vector(v), part(p) {}
 };
 
@@ -20,19 +21,23 @@ struct FaultParameter {
 struct ParameterForm {
   bool number = false, part = false;
   int vector = 0;  ///< numbers of the vector
+  /// Whether there are numbers at all.
   bool any() const { return number || vector > 0; }
+  /// How many numbers there are.
   int count() const { return (number ? 1 : 0) + (part ? 1 : 0) + vector; }
 };
 
-/// `N`, `N:X,Y,Z`, `N/P:X` or `X,Y`: as a name has them behind `=`, and as lists of faults show them.
+/// The numbers as a name has them behind `=`: `3`, `3:0.5,0,0`, `3/2:1` or `1,0`.
 ///   word: what stands for the number
 std::string parameter_name(const ParameterForm& form, const FaultParameter& parameter, const std::string& word);
+/// The numbers as lists of faults show them: `N`, `N:X,Y,Z`, `N/P:X` or `X,Y`; empty where there are none.
 std::string listed_parameter(const ParameterForm& form);
 
-/// Reads what parameter_name() writes; nothing where the text is another. Numbers within 1e9.
+/// Reads what parameter_name() writes of numbers. Nothing where the text is another, a number is NaN, or one is beyond
+/// 1e9 in size.
 std::optional<FaultParameter> parameter_of_name(const ParameterForm& form, std::string_view text);
 
-/// Puts the numbers for `%s`, `%p` and `%v`.
+/// A fault's text with its numbers in place of `%s` (`word`), `%p` (the part) and `%v` (the vector), each once.
 std::string text_with(std::string_view text, const ParameterForm& form, const FaultParameter& parameter,
                       const std::string& word);
 

@@ -43,8 +43,9 @@ struct Finding {
 };
 
 /// What explains a capture that does not pass, at most `most` findings, the likeliest first, those behind that are but
-/// `partial`; none where no known fault explains a third of what is wrong. Works on samples of some thousands of
-/// pixels, the same ones every time.
+/// `partial`; none where no known fault explains a third of what is wrong, and where nothing is wrong. Works on samples
+/// of some thousands of pixels, the same ones every time. Finds the possible surfaces of the whole picture again for
+/// each fault that draws otherwise.
 ///   stages: of validate_capture(), by the same pipeline and profile
 ///   supposed: names of faults; if there are any, these are tried and no others
 /// Error(usage) for a name that no fault has, or a parameter that the fault does not take.
@@ -52,10 +53,12 @@ std::vector<Finding> diagnose(const Scene& scene, const Pipeline& pipeline, cons
                               const Capture& capture, std::span<const StageVerdict> stages,
                               std::span<const std::string> supposed = {}, size_t most = 3);
 
-/// The names of all faults that are known, each with what it says: for help and documents.
+/// A fault that is known: its name with its parameter's form, the plane that it changes, and what it says.
 struct KnownFault {
   std::string name, plane, text;
 };
+
+/// All faults that are known, for help and documents.
 std::vector<KnownFault> known_faults();
 
 /// Findings as JSON: an array of {name, plane, text, changed, explained, contradicted, together, alone, located, left,

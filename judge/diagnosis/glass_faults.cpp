@@ -90,13 +90,17 @@ struct GlassCandidate {
   double cost = 0, explained = 0, contradicted = 0;
 };
 
+/// Compares the pixels under glass with what faults make of them. Borrows the pipeline and the picture.
 class GlassCase {
  public:
   GlassCase(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
             const StageVerdict& stage, const PictureCase& picture);
 
+  /// How many pixels under glass are wrong, estimated.
   double changed() const { return changed_; }
+  /// How well a fault explains the sampled pixels.
   GlassCandidate judged(const NamedGlassFault& fault) const;
+  /// The finding about a candidate, with its proof; the proof's plane is empty where no pixel shows the fault.
   Finding finding(const GlassCandidate& c) const;
   std::vector<NamedGlassFault> all() const;
 
@@ -109,6 +113,7 @@ class GlassCase {
   };
   Color shown(const Seen& seen, const NamedGlassFault* fault) const;
   double off(const Seen& seen, const Color& shown) const;
+  /// The difference of one channel in steps; 0 or 1000 where the captured one is not finite.
   double channel_off(const Seen& seen, const Color& shown, int k) const {
     const double given = picture_.given(seen.at.x, seen.at.y, k);
     if (!std::isfinite(given)) return given == shown[size_t(k)] ? 0 : 1e3;
@@ -156,6 +161,7 @@ GlassCase::GlassCase(const Scene& scene, const Pipeline& pipeline, const Profile
   for (const Seen& s : seen_) (s.off >= kSameCodes ? changed_ : same_) += s.at.weight;
 }
 
+/// What the pixel holds once its glass is blended, right or with a fault (null: right).
 Color GlassCase::shown(const Seen& seen, const NamedGlassFault* fault) const {
   GlassPixel glass = seen.glass;
   if (fault != nullptr) fault->fault->change(glass, fault->parameter.number);
@@ -166,6 +172,7 @@ Color GlassCase::shown(const Seen& seen, const NamedGlassFault* fault) const {
   return texel;
 }
 
+/// The largest difference of a channel between what was captured and `shown`, in steps of the format.
 double GlassCase::off(const Seen& seen, const Color& shown) const {
   double most = 0;
   for (int k = 0; k < picture_.channels(); ++k) most = std::max(most, channel_off(seen, shown, k));

@@ -17,23 +17,28 @@ struct GlassPixel {
   BlendState blend;
 };
 
+/// A row of the table of glass faults.
 struct GlassFault {
-  std::string_view name, text;
+  std::string_view name, text;  ///< text: `%s` stands for the parameter
   void (*change)(GlassPixel&, double) = nullptr;
   bool of_object = false;  ///< its parameter is an object that is transparent
   std::string (*says)(double) = nullptr;
 
+  /// Which numbers the fault has: an object, or none.
   ParameterForm form() const { return {of_object, false, 0}; }
 };
+
+/// All glass faults.
 std::span<const GlassFault> glass_faults();
 
+/// A fault with its parameter.
 struct NamedGlassFault {
   const GlassFault* fault = nullptr;
   FaultParameter parameter;
 };
 
-/// Findings about the pixels under glass, the likeliest first, as diagnose() has them. For
-/// TransparencyMode::after_lights.
+/// Findings about the pixels under glass, the likeliest first, as diagnose() has them; none where fewer than
+/// kLeastChanged pixels are wrong. For TransparencyMode::after_lights.
 ///   picture: of the same capture; predicts what the lights make before glass is drawn
 ///   only: faults that are supposed, one at a time; empty: look for the likeliest
 std::vector<Finding> glass_findings(const Scene& scene, const Pipeline& pipeline, const Profile& profile,

@@ -12,7 +12,7 @@ namespace {
 
 using Numbers = std::array<double, 4> PlaneValues::*;
 
-/// As a texel of codes is decoded: at most 1.
+/// A number decoded as a texel of codes is: at least 0, at most 1.
 double decoded_texel(double v) { return srgb_decoded(std::max(0.0, v)); }
 
 template <Numbers Of, double (*Change)(double)>

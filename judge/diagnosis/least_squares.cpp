@@ -6,6 +6,8 @@ namespace trueshade::oracle {
 
 namespace {
 
+/// The normal equations of a step from `at`, whose residuals are `here`, each weighed by Cauchy's rule. Residuals that
+/// are not finite, there or beside, do not count.
 NormalEquations equations_of(const LeastSquares& problem, const Triple3& at, const std::vector<double>& here,
                              double scale) {
   std::array<std::vector<double>, 3> moved;
@@ -30,6 +32,7 @@ NormalEquations equations_of(const LeastSquares& problem, const Triple3& at, con
   return n;
 }
 
+/// Moves `at` by Levenberg and Marquardt's steps for as long as the error falls.
 void descend(const LeastSquares& problem, double scale, Triple3& at) {
   std::vector<double> here = problem.residuals(at);
   double least = robust_error(here, scale), damping = 1e-3;
@@ -49,7 +52,8 @@ void descend(const LeastSquares& problem, double scale, Triple3& at) {
   }
 }
 
-/// Steps along each number, ever smaller, for as long as they lead to less: what appears or vanishes has no slope.
+/// Moves `at` by steps along each number, ever smaller, for as long as they lead to less: what appears or vanishes has
+/// no slope.
 void look_about(const LeastSquares& problem, double scale, Triple3& at) {
   double least = robust_error(problem.residuals(at), scale);
   for (double step = 16 * problem.size; step >= problem.size; step /= 2)

@@ -30,7 +30,8 @@ struct NormalEquations {
   }
 };
 
-/// The residual of each measurement at three numbers, always as many residuals. NaN: there is nothing to compare.
+/// The residual of each measurement at three numbers, always as many residuals. NaN or infinite: there is nothing to
+/// compare.
 using Residuals = std::function<std::vector<double>(const Triple3& at)>;
 
 /// What three numbers are fitted to.
@@ -42,12 +43,13 @@ struct LeastSquares {
   double none = 0;                 ///< the value of a number that changes nothing
 };
 
-/// The sum of residuals by Cauchy's rule, log(1 + (r / scale)^2), each 20 at most. NaN counts for 20, or for 1 at
-/// scales below 1e-3.
+/// The sum of residuals by Cauchy's rule, log(1 + (r / scale)^2), each 20 at most. One that is NaN or infinite counts
+/// for 20, or for 1 at scales below 1e-3.
 double robust_error(const std::vector<double>& residuals, double scale);
 
-/// Fits the numbers from `at` by Levenberg and Marquardt's steps, with each scale in turn. Then numbers whose change
-/// shows in no residual are set to `none`, and all are rounded to the coarsest unit that fits as well.
+/// The numbers that fit best, from `at` by Levenberg and Marquardt's steps, with each scale in turn; at the middle one
+/// it looks about along each number too. Then numbers whose change shows in no residual are set to `none`, and all are
+/// rounded to the coarsest unit that fits as well, where one does. Asks for the residuals some hundreds of times.
 Triple3 fitted(const LeastSquares& problem, Triple3 at);
 
 }  // namespace trueshade::oracle

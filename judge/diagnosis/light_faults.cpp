@@ -193,7 +193,7 @@ void move_viewer(LightPass& p, const Vector& v) { p.camera.eye += vec3_of(v); }
 void positions_from_eye(LightPass& p, double) {
   for (Light& l : p.lights) l.position -= p.camera.eye;
 }
-/// Of so many lights one.
+/// Keeps one of each `step` lights.
 void thin_out(LightPass& p, double step) {
   std::vector<Light> left;
   for (size_t i = 0; i < p.lights.size(); i += size_t(step)) left.push_back(p.lights[i]);

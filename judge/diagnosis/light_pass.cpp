@@ -24,7 +24,7 @@ PlainSurface taken(const LightPass& pass, PlainSurface surface) {
   return surface;
 }
 
-/// Where x, y and w of clip space are all 0.
+/// The point where x, y and w of clip space are all 0; nothing where there is none, as for an orthographic matrix.
 std::optional<Triple3> eye_of(const Matrix4& clip) {
   const auto row = [&](size_t r) { return Triple3{clip[r], clip[4 + r], clip[8 + r]}; };
   const Triple3 yw = cross(row(1), row(3)), wx = cross(row(3), row(0)), xy = cross(row(0), row(1));
@@ -52,6 +52,7 @@ double alpha_of(const LightPass& pass, const PlainSurface& surface) {
   return pass.pipeline.light_model.alpha_from_albedo ? surface.albedo[3] : 1;
 }
 
+/// A channel as the model outputs it: clamped to [0, 1] where the model says so.
 double output_of(const LightPass& pass, double x) {
   return pass.pipeline.light_model.clamp_result ? std::clamp(x, 0.0, 1.0) : x;
 }

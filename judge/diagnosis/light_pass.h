@@ -71,6 +71,8 @@ struct LightPass {
   /// The light program, instead of the light model, which then has no terms; null: there is none.
   std::shared_ptr<const PlainProgram> program{};
 };
+
+/// The pass that is right. Where the pipeline has a light program, makes that, and empties the light model.
 LightPass light_pass_of(const Scene& scene, const Pipeline& pipeline);
 
 /// RGBA of one pixel.
@@ -78,6 +80,7 @@ struct PredictedPixel {
   std::array<double, 4> stored{};  ///< as PlaneView::stored() has it: codes, or floats
   std::array<double, 4> value{};   ///< before the store; of strategies that blend, the value of `stored`
 };
+
 /// One light in the order of drawing, and what the pixel stands for once it is added.
 struct TracedLight {
   uint32_t light = 0;
@@ -87,12 +90,15 @@ struct TracedLight {
 
 /// What the pass makes of a pixel that shows `surface`; where that is not covered, the clear color.
 ///   listed: whether each light is in the list that the pixel is lit from; null: all are
-///   trace: null, or what takes the lights in the order in which they are added
+///   trace: if not null, the lights that are drawn are appended in the order in which they are added; not the first one
+///          of forward-multipass, which is stored
 PredictedPixel predicted_pixel(const LightPass& pass, const PlainSurface& surface,
                                const std::vector<uint8_t>* listed = nullptr, std::vector<TracedLight>* trace = nullptr);
 
-/// The code or float that the target stores for a value, and the value that a stored code or float stands for.
+/// The code or float that the target stores for a value.
 double stored_value(const Pipeline& pipeline, LightFault::Store rule, double value, int channel);
+/// The value that a stored code or float stands for: a float itself, a code as a number from 0 to 1, decoded from sRGB
+/// where the channel is encoded.
 double value_of_stored(Format target, double stored, int channel);
 
 /// A light that adds something to a pixel, and what all its fragments add.
@@ -100,7 +106,9 @@ struct LightAdded {
   uint32_t light = 0;
   std::array<double, 3> term{};
 };
-/// The lights that add something to the pixel, by ascending index. Faults that choose lights are not regarded.
+
+/// The lights that add something to the pixel, by ascending index, with the albedo in their terms. None of an unlit
+/// surface under a light program. Faults that choose lights are not regarded.
 std::vector<LightAdded> lights_added(const LightPass& pass, const PlainSurface& surface);
 
 }  // namespace trueshade::oracle

@@ -27,12 +27,13 @@ struct Quantity {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// Equal steps, of cosines equal steps of the angle: what is sharp is sharp near 1.
+/// The edges of `count` equal steps.
 std::vector<double> equal_steps(double from, double to, size_t count) {
   std::vector<double> edges(count + 1);
   for (size_t i = 0; i <= count; ++i) edges[i] = from + (to - from) * double(i) / double(count);
   return edges;
 }
+/// Edges at the cosines of these angles, of which the first is 90 and the last 0: what is sharp is sharp near 1.
 std::vector<double> cosines(std::initializer_list<double> degrees) {
   std::vector<double> edges;
   for (const double d : degrees) edges.push_back(std::cos(d * kPi / 180));
@@ -63,8 +64,9 @@ std::vector<double> solved(std::vector<double> a, std::vector<double> b) {
   return b;
 }
 
-/// As solved(), of changes of at least -1: no light's term turns round. Murty's principal pivoting: of the changes that
-/// are below, and of those held at -1 that would grow, the last one changes its side, until there is none.
+/// Solves what solved() does, by changes of at least -1: no light's term turns round. Murty's principal pivoting: of
+/// the changes that are below, and of those held at -1 that would grow, the last one changes its side, until there is
+/// none.
 std::vector<double> solved_with_light(const std::vector<double>& a, const std::vector<double>& b) {
   constexpr double kNoLight = -1;
   constexpr int kMostPivots = 1000;
@@ -96,12 +98,15 @@ std::vector<double> solved_with_light(const std::vector<double>& a, const std::v
   return x;
 }
 
+/// Fits factors of the lights' terms against each quantity.
 class QuotientFit {
  public:
   QuotientFit(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
               const StageVerdict& lighting)
       : shares_(scene, pipeline, profile, capture, lighting) {}
 
+  /// The quotient that leaves least, with its text; nothing where it leaves more than kMostLeft, or has no factor but
+  /// 1.
   std::optional<LightQuotient> best() const {
     if (!shares_.differs()) return std::nullopt;
     std::optional<LightQuotient> out = missing_lights(shares_);
@@ -116,6 +121,7 @@ class QuotientFit {
   }
 
  private:
+  /// The quantities that are tried, with their edges.
   std::vector<Quantity> quantities() const {
     double most = 1;
     for (const SharedPixel& p : shares_.pixels())
@@ -126,6 +132,8 @@ class QuotientFit {
              cosines({90, 75, 60, 50, 40, 32, 26, 21, 17, 14, 11, 8, 6, 4, 3, 2, 1, 0})}};
   }
 
+  /// The factors against one quantity, by least squares. A step that fewer than kLeastSeen terms are in has none, and
+  /// without two steps `left` stays 1.
   LightQuotient fit_of(const Quantity& quantity) const {
     const size_t n = quantity.edges.size() - 1;
     const auto step_of = [&](const Share& s) {
@@ -181,6 +189,7 @@ class QuotientFit {
            });
   }
 
+  /// Sets the text of a quotient that has none.
   void describe(LightQuotient& q) const {
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (const auto& step : q.curve) low = std::min(low, step.factor), high = std::max(high, step.factor);
@@ -205,6 +214,7 @@ class QuotientFit {
     return digits(middle(*most)) + ", by a factor of " + digits(most->factor);
   }
 
+  /// The factors at both ends of the curve.
   static std::string ends_text(const LightQuotient& q) {
     return digits(q.curve.front().factor) + " at " + digits(middle(q.curve.front())) + " of the range to " +
            digits(q.curve.back().factor) + " at " + digits(middle(q.curve.back()));

@@ -22,8 +22,9 @@ struct LightQuotient {
   std::string text;         ///< the plainest description of the curve, a sentence without its full stop
 };
 
-/// Of a picture whose lights are summed: what explains its difference best. Nothing where no quantity explains half of
-/// it, and where a light program's finish() stands between the sum and the picture.
+/// What explains best the difference of a picture whose lights are summed: missing lights, or a factor against one
+/// quantity. Nothing where none explains half of it, where no pixel is a violation, where lights are blended, and where
+/// a light program's finish() stands between the sum and the picture.
 ///   lighting: the stage of the lights, by the same pipeline and profile
 std::optional<LightQuotient> light_quotient(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                                             const Capture& capture, const StageVerdict& lighting);
@@ -31,7 +32,7 @@ std::optional<LightQuotient> light_quotient(const Scene& scene, const Pipeline& 
 /// A number with three digits that count.
 std::string digits(double x);
 
-/// As JSON: {against, curve [{from, to, factor}], left, text}.
+/// A quotient as JSON: {against, curve [{from, to, factor}], left, text}.
 std::string quotient_json(const LightQuotient& quotient);
 
 }  // namespace trueshade::oracle

@@ -9,10 +9,12 @@
 
 namespace trueshade::oracle {
 
-/// From an origin, in lengths of the direction.
+/// A ray from an origin; places on it are counted in lengths of the direction.
 struct Ray {
   Triple3 origin, direction;
 };
+
+/// Where a ray enters a mesh and where it leaves it; below 0 behind the origin.
 struct Crossing {
   double enters, leaves;
 };
@@ -20,7 +22,10 @@ struct Crossing {
 /// A light's mesh about the origin, as its faces' planes.
 class ConvexMesh {
  public:
+  /// Joins triangles of one flat face.
   explicit ConvexMesh(const LightMesh& mesh);
+  /// Where the line of a ray crosses the mesh; nothing where it misses. Of a ray that also crosses the sphere within
+  /// the mesh, and begins outside the sphere about it, the places are those of the sphere within.
   std::optional<Crossing> crossed_by(const Ray& ray) const;
 
  private:
@@ -35,9 +40,10 @@ class ConvexMesh {
 /// The meshes of a pipeline's lights.
 class LightShapes {
  public:
+  /// Makes the mesh of each extent that is one.
   explicit LightShapes(const LightVolumes& volumes);
   /// How many fragments of the light's mesh the pixel has that shows the ray's direction: as under depth clamp, without
-  /// what the grid of the window's vertices moves.
+  /// what the grid of the window's vertices moves. 0 to 2; 0 where the light's range is not above 0.
   ///   extent: of the light's drawn_extent(), a mesh
   int fragments(const Light& light, LightExtent extent, const Ray& ray) const;
 

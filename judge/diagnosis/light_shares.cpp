@@ -11,6 +11,8 @@ LightShares::LightShares(const Scene& scene, const Pipeline& pipeline, const Pro
   before_ = error_with([](const Share&) { return 0.0; });
 }
 
+/// Adds a pixel, if it tells anything. A channel whose difference is not finite, or that is as bright as codes can be,
+/// gets the weight 0.
 void LightShares::add(int x, int y) {
   SharedPixel pixel;
   pixel.surface = case_.surface(x, y);
@@ -34,6 +36,7 @@ void LightShares::add(int x, int y) {
   if (!pixel.lights.empty()) pixels_.push_back(std::move(pixel));
 }
 
+/// A light's term with the quantities that it may depend on; these are 0 of ambient light.
 Share LightShares::share(const SharedPixel& pixel, const LightAdded& added) const {
   const Light& light = scene_.lights[added.light];
   Share s{added.light, added.term};

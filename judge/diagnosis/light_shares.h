@@ -16,6 +16,7 @@ struct Share {
   double part = 0, nl = 0, nh = 0;  ///< d / range; cosines
 };
 
+/// One sampled pixel, and the lights that add to it.
 struct SharedPixel {
   PlainSurface surface;
   Triple3 off{}, weight{};  ///< what is given minus what is right; 1 / error^2, 0 where the channel says nothing
@@ -25,12 +26,17 @@ struct SharedPixel {
 /// Sampled pixels of a picture, each with the term of every light that adds to it. Borrows the scene and the capture.
 class LightShares {
  public:
+  /// Leaves out pixels that no light adds to, that show nothing or an unlit surface, and of which a term is not finite.
   LightShares(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
               const StageVerdict& lighting);
 
+  /// The scene that was borrowed.
   const Scene& scene() const { return scene_; }
-  const LightPass& pass() const { return pass_; }  ///< that is right
+  /// The light pass that is right.
+  const LightPass& pass() const { return pass_; }
+  /// The pixels that are looked at.
   const std::vector<SharedPixel>& pixels() const { return pixels_; }
+  /// Whether any of the pixels differs from what is right.
   bool differs() const { return before_ > 0; }
 
   /// The sum of squares of a difference at a pixel, in units of its error.

@@ -46,7 +46,8 @@ bool other_color_map(Scene& s, Pipeline&, const P& p) {
   return true;
 }
 
-/// Coordinates in a set of their own, so that those of the plane stay.
+/// Moves what the colour maps are read at, by texels, in a set of coordinates of its own, so that those of the plane
+/// stay. False where there is no colour map.
 bool offset_texels(Scene& s, Pipeline&, const P& p) {
   if (p.vector == Triple3{}) return false;
   constexpr size_t kOwn = kMaxUvSets - 1;
@@ -72,7 +73,7 @@ bool offset_texels(Scene& s, Pipeline&, const P& p) {
   return any;
 }
 
-/// Of all meshes, in the plane too.
+/// Moves the texture coordinates of all meshes, which the plane shows too.
 bool offset_uv(Scene& s, Pipeline&, const P& p) {
   for (Mesh& mesh : s.meshes)
     for (size_t k = 0; k < 2; ++k)
@@ -86,7 +87,7 @@ bool scale_uv(Scene& s, Pipeline&, const P& p) {
   return p.vector != Triple3{1, 1, 0} && p.vector[0] != 0 && p.vector[1] != 0;
 }
 
-/// Textures that are read as normals, each once.
+/// Calls change(texture) for each texture that is read as normals, once. Returns whether any call returned true.
 template <class Change>
 bool change_normal_maps(Scene& s, const Change& change) {
   std::vector<uint8_t> done(s.textures.size());
@@ -100,7 +101,7 @@ bool change_normal_maps(Scene& s, const Change& change) {
 }
 bool has_codes(const Texture& t) { return t.format == TextureFormat::rgba8 || t.format == TextureFormat::srgb8_a8; }
 
-/// The channel's codes the other way round.
+/// Turns a channel's codes of all normal maps round: 255 - code. False where no normal map has codes.
 template <size_t Channel>
 bool turn_channel(Scene& s, Pipeline&, double) {
   return change_normal_maps(s, [](Texture& t) {
@@ -174,7 +175,8 @@ double object_at(const EvidentPixel& p) { return p.expected.covered ? p.expected
 double given_material_at(const EvidentPixel& p) { return p.given.material - 1; }
 double material_at(const EvidentPixel& p) { return p.expected.covered ? p.expected.material - 1 : -1; }
 
-/// Factors of the albedo's channels, by least squares.
+/// The two likeliest keys, each with factors of the albedo's channels, by least squares. Empty where albedo was not
+/// captured.
 template <class Key>
 Suspects tinted(const PlaneEvidence& e, const Key& key) {
   Suspects all;

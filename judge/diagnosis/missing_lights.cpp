@@ -25,7 +25,8 @@ std::vector<uint32_t> lights_of(const LightShares& shares) {
 }
 
 /// The sum of squares that is left if each pixel lacks the subset of `lights` whose absence explains it best.
-///   told(i, is_missing): called at each pixel for each of `lights` that adds more than rounding to it
+///   told(i, is_missing): called at each pixel for each lights[i] that adds more than rounding to it, with whether the
+///                        best subset of that pixel holds the light
 template <class Told>
 double error_without(const LightShares& shares, const std::vector<uint32_t>& lights, const Told& told) {
   double error = 0;
@@ -49,10 +50,12 @@ double error_without(const LightShares& shares, const std::vector<uint32_t>& lig
   }
   return error;
 }
+/// The same without a call.
 double error_without(const LightShares& shares, const std::vector<uint32_t>& lights) {
   return error_without(shares, lights, [](size_t, bool) {});
 }
 
+/// Which lights are missing, in words: the three that are missing most; empty where none is at a tenth of the pixels.
 std::string missing_text(const std::vector<LightQuotient::Step>& curve) {
   std::vector<LightQuotient::Step> most = curve;
   std::erase_if(most, [](const auto& s) { return s.factor > 0.9; });

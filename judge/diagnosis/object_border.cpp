@@ -59,6 +59,7 @@ namespace {
 
 using Cost = std::function<double(const Triple3&)>;
 
+/// `at` with one number greater by `by`.
 Triple3 moved(Triple3 at, size_t number, double by) {
   at[number] += by;
   return at;

@@ -17,11 +17,13 @@ std::vector<SampledPixel> outline_of(const PlaneEvidence& evidence, uint32_t obj
 /// An object's outline, and the sample. Borrows the evidence.
 class ObjectBorder {
  public:
+  /// Empty where identifiers were not captured, and for meshes of more than 20,000 triangles.
   ObjectBorder(const PlaneEvidence& evidence, uint32_t object);
 
   /// Draws the scene's object alone, and counts the pixels that show it and are not drawn, or are drawn and do not show
   /// it. A pixel that shows a nearer surface does not count.
   int mismatches(const Scene& scene, const Pipeline& pipeline);
+  /// Whether there are no pixels to compare.
   bool empty() const { return places_.empty(); }
 
  private:
@@ -32,7 +34,8 @@ class ObjectBorder {
 };
 
 /// The numbers of a fault that cost least, for a cost that changes in steps, as a count of pixels does. Looks from `at`
-/// along each number, takes the middle of those that cost as little, and rounds it as people write numbers.
+/// along each number, takes the middle of those that cost as little, and rounds it as people write numbers. Asks for
+/// the cost some hundreds of times.
 ///   numbers: how many of the three are looked for
 ///   size: of a small change of a number
 Triple3 settled(const std::function<double(const Triple3&)>& cost, int numbers, double size, Triple3 at);

@@ -135,6 +135,7 @@ PlainSurface PictureCase::surface(int x, int y) const {
   return plain;
 }
 
+/// Sets the numbers of the planes that are wrong to those that the plane's format holds of the expected ones.
 void PictureCase::heal_surface(int x, int y, PlainSurface& surface) const {
   const PlaneValues v = expected_->at(x, y).value;
   Pipeline of_plane = pipeline_;

@@ -54,30 +54,38 @@ struct PictureSupposition {
   int stale = 0;                       ///< side in pixels of tiles, of which those that stand out hold anything; or 0
   std::shared_ptr<KnownPixels> known;  ///< pixels that `pass` made; null: none are kept
 
+  /// Adds a fault to those that are supposed. Drops `known` where the fault changes what the pass makes.
   void suppose(const PictureFault& fault, const FaultParameter& parameter);
 };
 
-/// Borrows the scene and the capture.
+/// A captured picture beside predictions of it. Borrows the scene and the capture.
 class PictureCase {
  public:
+  /// Chooses the samples. They leave out pixels that are not predicted: under glass, and where the capture holds the
+  /// nominal value and the prediction is another. Throws as CapturedSurface does.
   PictureCase(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
               const StageVerdict& stage);
 
+  /// A picture without a fault.
   PictureSupposition right() const {
     PictureSupposition s;
     s.pass = right_, s.known = known_;
     return s;
   }
+  /// The sample that findings are judged by.
   const std::vector<SampledPixel>& sample() const { return sample_; }
-  const std::vector<SampledPixel>& few() const { return few_; }  ///< a smaller sample, for a first look
+  /// A smaller sample, for a first look.
+  const std::vector<SampledPixel>& few() const { return few_; }
 
   /// How far the captured pixel is from the prediction: the largest difference of a channel, in steps of the format. 0
-  /// below kSameSteps, and in a tile that is supposed to be stale.
+  /// below kSameSteps, and in a tile that is supposed to be stale. 1000 where a captured channel is NaN or infinite and
+  /// the predicted one is finite.
   double steps_off(const PictureSupposition& supposed, const SampledPixel& pixel) const;
   /// Sums up how well supposed faults predict `pixels`, which of these they explain and which they contradict.
   ///   off_if_right: steps_off() of each of `pixels` without any fault
   Disagreement disagreement(const PictureSupposition& supposed, const std::vector<SampledPixel>& pixels,
                             const std::vector<double>& off_if_right) const;
+  /// steps_off() of each of `pixels`.
   std::vector<double> steps_off(const PictureSupposition& supposed, const std::vector<SampledPixel>& pixels) const;
 
   /// A pixel under the supposed faults. Those that change a finished color may act before the target stores it or
@@ -87,31 +95,41 @@ class PictureCase {
     Color stored, nearest;  ///< if they act after it, and are stored again: as the pipeline says, or to nearest
     Color value;            ///< the number whose store is `drawn`
   };
+  /// Predicts the pixel at (x, y), from the top left. make_tiles() comes before, where tiles are supposed.
   Prediction predicted(const PictureSupposition& supposed, int x, int y) const;
+  /// The captured code or float.
   double given(int x, int y, int channel) const { return color_.stored(x, y, channel); }
+  /// The values that the captured codes or floats stand for; 0, and an alpha of 1, of channels that there are not.
   Color given_value(int x, int y) const;
+  /// How many channels the picture has, at most 4.
   int channels() const { return std::min(color_.channels, 4); }
+  /// steps_off() of one channel, whatever is supposed of stale tiles.
   double steps_off(const PictureSupposition& supposed, const Prediction& predicted, int x, int y, int channel) const;
   /// The number to report as predicted: the captured one where it agrees with the prediction, else predicted.stored.
   double shown(const PictureSupposition& supposed, const Prediction& predicted, int x, int y, int channel) const;
+  /// Whether the pixel is in a tile that is supposed to be stale.
   bool in_stale_tile(const PictureSupposition& supposed, int x, int y) const;
   /// Whether the captured codes differ from the predicted values as a dither makes them. For codes that are stored
   /// once.
   bool looks_dithered(const PictureSupposition& supposed) const;
-  /// How far neighbouring numbers of the target's format lie apart near `value`; 1e-5 of it for 32-bit floats.
+  /// How far neighbouring numbers of the target's format lie apart near `value`; 1e-5 of it for 32-bit floats. Of
+  /// floats below 2^-9 it is that of 2^-9.
   double step_at(double value, int channel) const;
 
+  /// The surface that the light pass reads at a pixel, from the capture's planes.
   PlainSurface surface(int x, int y) const;
-  /// From now on surface() takes the planes that are wrong from `expected`, not from the capture. Not while other
-  /// threads ask.
+  /// From now on surface() takes the planes that are wrong from `expected`, not from the capture. Drops the pixels
+  /// that right() has kept. Not while other threads ask.
   void heal(std::shared_ptr<const ExpectedPlanes> expected, const std::array<bool, kPlanes>& wrong) {
     expected_ = std::move(expected), wrong_ = wrong;
     known_ = std::make_shared<KnownPixels>();
   }
-  /// The pixel of the drawn picture that is shown at (x, y) where the picture is moved.
+  /// The pixel of the drawn picture that is shown at (x, y) where the picture is moved; beyond its edge, the edge's
+  /// pixel.
   std::array<int, 2> source(const Move& move, int x, int y) const;
+  /// StaleTiles::cost().
   double stale_cost(int side) const { return stale_.cost(side); }
-  /// Makes the tiles' boxes, which lists of lights are made from. Not while others ask.
+  /// Makes the tiles' boxes, which lists of lights are made from, unless they are made. Not while other threads ask.
   void make_tiles();
 
  private:
@@ -136,7 +154,9 @@ class PictureCase {
 enum class PixelUse : uint8_t { usual, dull, left_out };
 
 /// A sample of a stage's pixels, the same one every time. It has at most most[i] pixels of stratum i: violations,
-/// stores of another legal neighbour (store_2), other pixels, and other pixels that are dull.
+/// stores of another legal neighbour (store_2), other pixels, and other pixels that are dull. Each has the weight of
+/// the pixels of its stratum that it stands for. Pixels that are left out, by `uses` or by the stage, are in none.
+///   uses: of each pixel of the stage
 std::vector<SampledPixel> sampled_pixels(const StageVerdict& stage, const std::array<size_t, 4>& most,
                                          const std::vector<PixelUse>& uses);
 

@@ -31,6 +31,7 @@ enum class Search : uint8_t {
   vector           ///< three numbers of all lights, by least squares
 };
 
+/// A row of the tables of picture faults.
 struct PictureFault {
   std::string_view name, text;  ///< text: `%s` stands for the parameter, `%v` for its vector
   void (*light)(LightPass&, double) = nullptr;
@@ -53,6 +54,7 @@ struct PictureFault {
   std::span<const std::array<double, 3>> from{};                          ///< other vectors to start from
   bool counts = false;  ///< the lists of `tile` are its own, and hold the parameter's number of lights at most
 
+  /// Which numbers the fault has.
   ParameterForm form() const {
     if (search == Search::none) return {};
     if (search == Search::vector) return {false, false, numbers};
@@ -66,7 +68,9 @@ inline constexpr double kFactorsNearOne[] = {0.5, 0.9, 0.99, 1.01, 1.1, 2};
 /// Whether the target's texels are codes.
 inline bool holds_codes(const LightPass& p) { return info(p.pipeline.target).number_class == NumberClass::unorm; }
 
-std::span<const PictureFault> picture_value_faults();  ///< picture_faults.cpp
-std::span<const PictureFault> light_faults();          ///< light_faults.cpp
+/// Faults of what becomes of the picture once it is lit (picture_faults.cpp).
+std::span<const PictureFault> picture_value_faults();
+/// Faults of how the picture is lit (light_faults.cpp).
+std::span<const PictureFault> light_faults();
 
 }  // namespace trueshade::oracle

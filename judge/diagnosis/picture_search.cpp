@@ -31,6 +31,7 @@ struct PictureCandidate {
   double cost = 0;  ///< with what parameters and doubts cost, of the changed pixels
 };
 
+/// The rows of both tables.
 std::vector<const PictureFault*> all_faults() {
   std::vector<const PictureFault*> faults;
   for (const PictureFault& f : picture_value_faults()) faults.push_back(&f);
@@ -38,6 +39,7 @@ std::vector<const PictureFault*> all_faults() {
   return faults;
 }
 
+/// What a parameter that is found so must earn.
 double parameter_cost(Search search) {
   switch (search) {
     case Search::none:
@@ -81,10 +83,12 @@ class PictureSearch {
       changed_few_ += off_few_[i] >= kSameSteps ? picture.few()[i].weight : 0;
   }
 
+  /// How many pixels are wrong, estimated.
   double changed() const { return changed_; }
   /// The one fault, or the two together, that explain the picture best, and rivals of a single one. Leaves out findings
   /// that no sampled pixel proves.
   std::vector<Finding> look() const;
+  /// One finding about each of the faults, together with those before it.
   std::vector<Finding> findings(std::span<const NamedFault> faults) const;
 
  private:
@@ -113,6 +117,7 @@ class PictureSearch {
   double cost_ = 0;  ///< of the prediction without a fault
 };
 
+/// What each pixel is off without a fault.
 std::vector<double> PictureSearch::off(const std::vector<SampledPixel>& pixels) const {
   std::vector<double> steps(pixels.size());
   const PictureSupposition right = picture_.right();
@@ -120,12 +125,14 @@ std::vector<double> PictureSearch::off(const std::vector<SampledPixel>& pixels) 
   return steps;
 }
 
+/// The faults supposed all at once, in this order.
 PictureSupposition PictureSearch::supposed(std::span<const NamedFault> faults) const {
   PictureSupposition s = picture_.right();
   for (const NamedFault& f : faults) s.suppose(*f.fault, f.parameter);
   return s;
 }
 
+/// What the faults explain and cost, by the whole sample (`all`) or by the few pixels.
 PictureCandidate PictureSearch::judged(std::vector<NamedFault> faults, const PictureSupposition& supposed,
                                        bool all) const {
   PictureCandidate c;

@@ -14,9 +14,10 @@ namespace trueshade::oracle {
 /// Tiles of 8, 16, 32 and 64 pixels that are not as they should be, where nearly all others are.
 class StaleTiles {
  public:
+  /// Finds the tiles that stand out, of each side.
   explicit StaleTiles(const StageVerdict& stage);
 
-  /// Whether the pixel is in a tile that stands out.
+  /// Whether the pixel is in a tile of that side, which is 8, 16, 32 or 64, that stands out.
   bool hold_anything(int side, int x, int y) const;
   /// What it costs to suppose that the tiles of that side which stand out are stale: more for many tiles, and for tiles
   /// that are mostly as they should be. Nothing stands out where pixels everywhere are not as they should be.
@@ -35,12 +36,14 @@ class StaleTiles {
 /// Boxes about the surfaces of tiles, of which lists of lights are made.
 class TileLists {
  public:
+  /// Makes the boxes of tiles of 8, 16, 32 and 64 pixels, from the surface of each pixel.
   TileLists(const CapturedSurface& surfaces, int width, int height);
 
+  static constexpr int kOwn = 8;  ///< as `from`: the pixel's own tile
   /// Whether each light of the pass is in the list of the tile beside the pixel's: lights whose range reaches its box.
-  ///   from: which of its eight neighbours, or kOwn
+  /// Lights without a place or an end are in every list, others in none of a tile without a surface.
+  ///   from: which of its eight neighbours, or kOwn; at the picture's edge the tile nearest to it
   ///   most: lights that a list holds, the first ones
-  static constexpr int kOwn = 8;
   std::vector<uint8_t> list(const LightPass& pass, int side, int from, int most, int x, int y) const;
 
  private:

@@ -17,12 +17,13 @@ using programs::Op;
 using programs::ProgramNode;
 using programs::Rate;
 
+/// A constant as a number, by its type.
 double constant_of(const ProgramNode& node) {
   if (node.type == programs::Type::f32) return double(std::bit_cast<float>(node.bits));
   return node.type == programs::Type::i32 ? double(int32_t(node.bits)) : double(node.bits);
 }
 
-/// As captured_surface.h has it, without errors.
+/// The surface as captured_surface.h has it, without errors.
 ShadedSurface shaded(const PlainSurface& p) {
   ShadedSurface s;
   for (size_t k = 0; k < 3; ++k) {
@@ -70,6 +71,7 @@ PlainProgram::PlainProgram(const Scene& scene, const Pipeline& pipeline, program
   for (const LightType type : types) find_needed(type);
 }
 
+/// Drops from of_type_[type] the nodes that light() does not need of such a light.
 void PlainProgram::find_needed(LightType type) {
   std::vector<bool> known(program_.nodes.size()), needed(program_.nodes.size());
   Values values = first_;
@@ -96,6 +98,7 @@ void PlainProgram::find_needed(LightType type) {
   std::erase_if(of_type_[size_t(type)], [&](NodeId id) { return !needed[id]; });
 }
 
+/// The value of a node, whose operands have theirs.
 double PlainProgram::computed(const ProgramNode& node, const Values& values) const {
   const auto at = [&](size_t k) { return values[node.operand[k]]; };
   switch (node.op) {

@@ -139,6 +139,8 @@ double PlaneCase::stored(Plane plane, double value, int channel) const {
   return std::clamp(v, 0.0, 1.0) * view.layout.largest_code(channel);
 }
 
+/// Steps that a channel is off beyond its legal values, rounding and `reach`: 0, or kSameSteps and more. 1000 where one
+/// of the numbers is NaN or infinite, unless they are equal.
 double PlaneCase::channel_off(Plane plane, const ExpectedPixel& p, double reach, int x, int y, int channel) const {
   const PlaneView& view = views_[size_t(plane)];
   const double given = view.stored(x, y, channel), value = stored(plane, number_of(p.value, plane, channel), channel);
@@ -202,6 +204,7 @@ std::optional<ExpectedPixel> PlaneCase::average_at(const ExpectedPlanes& planes,
   return hull;
 }
 
+/// Steps that each captured plane is off from the expected pixel.
 std::array<double, kPlanes> PlaneCase::steps_off(const ExpectedPixel& p, int x, int y) const {
   std::array<double, kPlanes> off{};
   for (size_t i = 0; i < kPlanes; ++i)

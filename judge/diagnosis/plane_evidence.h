@@ -8,6 +8,7 @@
 
 namespace trueshade::oracle {
 
+/// A pixel of the sample as captured, and as expected.
 struct EvidentPixel {
   SampledPixel at;
   bool wrong = false;  ///< any plane is not as expected
@@ -16,6 +17,7 @@ struct EvidentPixel {
   uint32_t triangle = 0;  ///< the expected one, in the object's mesh
 };
 
+/// What is captured, at sampled pixels and at any other.
 struct PlaneEvidence {
   const Scene& scene;
   const Pipeline& pipeline;
@@ -24,14 +26,17 @@ struct PlaneEvidence {
   std::function<PlaneValues(int x, int y)> given_at;  ///< as EvidentPixel::given, of any pixel
   std::function<double(int x, int y)> object_at;      ///< its identifier alone
 
+  /// Whether a plane was captured.
   bool has_plane(Plane plane) const { return has[size_t(plane)]; }
 };
 
 /// The objects, at most two, that three tenths of the wrong pixels or more should show or do show; the likeliest first.
+/// Empty where there is none.
 std::vector<uint32_t> suspected_objects(const PlaneEvidence& evidence);
 
 /// Parameters of a fault of Search::suspected: those that fault.suspects() names, fitted to the pixels as fault.fit
-/// says. Empty where nothing is suspected, and for a camera's fault where most pixels are right.
+/// says. Empty where nothing is suspected, and for a camera's fault where most pixels are right. A fit draws meshes at
+/// the pixels some hundreds of times.
 std::vector<FaultParameter> suspected_parameters(const PlaneEvidence& evidence, const PlaneFault& fault);
 
 }  // namespace trueshade::oracle

@@ -117,7 +117,8 @@ void normal_axis_turned(const Context&, PlaneValues& v, double) {
 glm::mat4x3 matrix_at(const Context& c, const PlaneValues& v) {
   return v.covered ? c.scene.instances[size_t(v.object) - 1].world_from_object : glm::mat4x3(1.0f);
 }
-/// As if nobody had made it unit length after the matrix: the inverse transpose takes a unit normal of the object here.
+/// Makes the normal as long as if nobody had made it unit length after the matrix: the inverse transpose takes a unit
+/// normal of the object here.
 void normal_unscaled(const Context& c, PlaneValues& v, double) {
   const glm::mat4x3 m = matrix_at(c, v);
   each_normal(v, [&](const V3& n) {

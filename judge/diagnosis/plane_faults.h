@@ -24,6 +24,8 @@ struct PlaneContext {
   std::array<std::array<double, 3>, 3> view{};  ///< rows: right, up, towards the viewer
   std::array<double, 3> eye{};                  ///< where all rays meet; of an orthographic matrix the camera's
 };
+
+/// What encodings read of a scene. Borrows both.
 PlaneContext plane_context(const Scene& scene, const Pipeline& pipeline);
 
 /// Where a plane's pixel came from.
@@ -41,6 +43,7 @@ enum class Fit : uint8_t {
   camera   ///< all pixels
 };
 
+/// A row of the tables of plane faults.
 struct PlaneFault {
   enum class Search : uint8_t {
     none,          ///< it has no number
@@ -72,23 +75,31 @@ struct PlaneFault {
   bool (*sample)(const Scene&, Sampling&, double) = nullptr;  ///< as redraw, by how textures are read
   double change_of = 0;  ///< a small change of a number; below 0: times the scene's extent
 
+  /// Which numbers the fault has.
   ParameterForm form() const {
     if (search == Search::suspected) return numbers;
     return {search != Search::none, false, 0};
   }
   /// Whether its numbers are estimates, and only as good as the pixels.
   bool is_estimate() const { return fit != Fit::none || search == Search::smooth || estimated; }
+  /// Whether the fault draws otherwise, so that the expected planes are made again.
   bool redraws() const { return redraw != nullptr || edit != nullptr || sample != nullptr; }
 };
 
 // The searches that tables name most.
 inline constexpr auto kOneOf = PlaneFault::Search::one_of, kSmooth = PlaneFault::Search::smooth;
 
-std::span<const PlaneFault> plane_faults();     ///< plane_faults.cpp: encodings and moves
-std::span<const PlaneFault> gloss_faults();     ///< gloss_faults.cpp: encodings of what materials reflect and emit
-std::span<const PlaneFault> redraw_faults();    ///< redraw_faults.cpp: states and scenes
-std::span<const PlaneFault> object_faults();    ///< object_faults.cpp: one object, its matrix and its triangles
-std::span<const PlaneFault> camera_faults();    ///< camera_faults.cpp
-std::span<const PlaneFault> material_faults();  ///< material_faults.cpp
+/// Encodings and moves of planes (plane_faults.cpp).
+std::span<const PlaneFault> plane_faults();
+/// Encodings of what materials reflect and emit (gloss_faults.cpp).
+std::span<const PlaneFault> gloss_faults();
+/// States and scenes that are drawn otherwise (redraw_faults.cpp).
+std::span<const PlaneFault> redraw_faults();
+/// Faults of one object: its matrix and its triangles (object_faults.cpp).
+std::span<const PlaneFault> object_faults();
+/// Faults of the camera (camera_faults.cpp).
+std::span<const PlaneFault> camera_faults();
+/// Faults of one material (material_faults.cpp).
+std::span<const PlaneFault> material_faults();
 
 }  // namespace trueshade::oracle

@@ -25,6 +25,7 @@ struct PlaneCandidate {
   double left = 0;                      ///< of what is equally cheap: PlaneSearch::left_of()
 };
 
+/// Looks for the faults that explain a G-buffer. Borrows the planes.
 class PlaneSearch {
  public:
   explicit PlaneSearch(const PlaneCase& planes) : planes_(planes), evidence_(planes.evidence()) {
@@ -39,9 +40,14 @@ class PlaneSearch {
     for (size_t i = 0; i < off_.size(); ++i) cost_ += planes.sample()[i].weight * cost(off_[i]);
   }
 
+  /// How many pixels are wrong in any plane, estimated.
   double changed() const { return changed_; }
+  /// How many pixels of a plane are wrong, estimated.
   double wrong(size_t plane) const { return wrong_[plane]; }
+  /// The two faults that explain the G-buffer together, as one candidate, if they explain much more than any single
+  /// one; else the best single faults, the best first. Empty where none explains kLeastExplained.
   std::vector<PlaneCandidate> look() const;
+  /// What the supposed faults explain and cost, by the whole sample (`all`) or by the few pixels.
   PlaneCandidate judged(PlaneSupposition supposed, bool all) const;
   Finding finding(std::span<const NamedPlaneFault> faults, size_t which) const;
   bool told_apart(const PlaneCandidate& a, const PlaneCandidate& b) const;
@@ -52,6 +58,7 @@ class PlaneSearch {
   struct Share {
     double changed = 0, explained = 0, contradicted = 0, left = 0, astray = 0;
   };
+  /// The mean cost of the planes of one pixel.
   double cost(const std::array<double, kPlanes>& off) const {
     double sum = 0;
     for (const double o : off) sum += cost_of(o);
@@ -106,6 +113,8 @@ bool PlaneSearch::bears_on(const PlaneFault& fault) const {
   return changed_ >= kLeastChanged;
 }
 
+/// Each fault that bears on what is wrong, supposed beside those of `base` with its best parameter; the cheapest first,
+/// by the few pixels. Faults that draw otherwise are tried only if `redraw` and no encoding explains all.
 std::vector<PlaneCandidate> PlaneSearch::beside(const PlaneSupposition& base, bool redraw) const {
   std::vector<PlaneCandidate> candidates;
   // Of an object more names than one may explain as much, and it is said that they do.
@@ -181,6 +190,7 @@ std::vector<PlaneCandidate> PlaneSearch::look() const {
   return singles;
 }
 
+/// The faults supposed all at once, without those that change nothing.
 PlaneSupposition PlaneSearch::supposed(std::span<const NamedPlaneFault> faults) const {
   PlaneSupposition s = planes_.right();
   for (const NamedPlaneFault& f : faults)

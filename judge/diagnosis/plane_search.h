@@ -10,11 +10,12 @@
 
 namespace trueshade::oracle {
 
+/// A fault with its parameter.
 struct NamedPlaneFault {
   const PlaneFault* fault = nullptr;
   FaultParameter parameter;
 
-  /// How many its name gives, without those that change nothing.
+  /// How many numbers the fault's name gives, without those that change nothing.
   int numbers() const {
     const ParameterForm form = fault->form();
     int count = form.count();
@@ -31,11 +32,15 @@ struct PlaneFindings {
   std::shared_ptr<const Scene> drawn;  ///< what the likeliest fault draws, where it draws another scene; or null
 };
 
+/// Compares the captured G-buffer with what the scene should have made it, and finds what explains it. No findings
+/// where fewer than kLeastChanged pixels are wrong.
 ///   only: faults that are supposed, all together; empty: look for the likeliest
 PlaneFindings plane_findings(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                              const Capture& capture, const StageVerdict& stage, std::span<const NamedPlaneFault> only);
 
+/// The fault's name with its parameter: `depth-bits=16`; its name alone where it has none.
 std::string name_of(const PlaneFault& fault, const FaultParameter& parameter);
+/// The fault's sentence with its parameter.
 std::string text_of(const PlaneFault& fault, const FaultParameter& parameter);
 
 }  // namespace trueshade::oracle

@@ -57,6 +57,7 @@ void PredictedStore::blend(const Triple3& source, double alpha, const BlendState
   for (size_t k = 0; k < 4; ++k) texel[k] = double(after[k]);
 }
 
+/// The code of a value by the rule, clamped to [0, 1]; NaN is 0.
 double PredictedStore::code_of(double x, int channel) const {
   const double steps = (x > 0 ? std::min(x, 1.0) : 0.0) * layout_.largest_code(channel);
   if (rule_ == LightFault::Store::truncated) return std::floor(steps * (1 + 1e-7));  // as floats have whole codes
@@ -64,6 +65,7 @@ double PredictedStore::code_of(double x, int channel) const {
   return std::nearbyint(steps);
 }
 
+/// The half of a value by the rule. Beyond 65504, and of NaN, it is infinite, or 65504 where the rule truncates.
 double PredictedStore::half_of(double x) const {
   const double h = rounded_to(x, 10, -14, rule_);
   if (std::fabs(h) <= 65504) return h;

@@ -5,14 +5,19 @@
 
 namespace trueshade::oracle {
 
-/// A number rounded to so many bits of fraction, its exponent at least `least`.
+/// A number rounded to so many bits of fraction, its exponent at least `least`; to nearest unless the rule truncates or
+/// rounds upward. 0, NaN and infinity stay as they are.
 double rounded_to(double x, int bits, int least, LightFault::Store rule);
 
 /// Stores, and adds, as a target's texels are: codes, or floats. Borrows the pipeline.
 class PredictedStore {
  public:
+  /// Rule `right` is the pipeline's own.
   PredictedStore(const Pipeline& pipeline, LightFault::Store rule);
+  /// The code or float that a store of x leaves in a channel. Of unorm codes NaN is 0, and others are clamped to [0,
+  /// 1].
   double stored(double x, int channel) const;
+  /// Blends a fragment over a texel, which holds codes or floats.
   void blend(const Triple3& source, double alpha, const BlendState& state, std::array<double, 4>& texel) const;
 
  private:

@@ -11,7 +11,7 @@ namespace trueshade::oracle {
 
 namespace {
 
-/// 1 / sqrt(x), as the fault has it.
+/// 1 / sqrt(x), as the fault has it; 0 where x is not above 0.
 double root_of(double x, LightFault::Root root) {
   if (!(x > 0)) return 0;
   if (root == LightFault::Root::one_newton_step) {  // the integer's shift that Quake III made known
@@ -22,6 +22,7 @@ double root_of(double x, LightFault::Root root) {
   return root == LightFault::Root::twelve_bits ? rounded_to(right, 11, -1000, LightFault::Store::truncated) : right;
 }
 
+/// GLSL's smoothstep(); a step at `low` where the edges are not apart.
 double smooth(double low, double high, double x) {
   if (!(low < high)) return x > low ? 1 : 0;
   const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
@@ -81,14 +82,17 @@ int PredictedTerms::fragments(const PlainSurface& surface, const Light& light) c
   return pass_.shapes->fragments(placed, extent, {from, minus(surface.position, from)});
 }
 
+/// A vector made unit length, as the fault has the root; 0 of a vector of length 0.
 Triple3 PredictedTerms::unit_of(const Triple3& v) const { return times(v, root_of(inner(v, v), pass_.fault.root)); }
 
+/// A light's position, as the fault has it.
 Triple3 PredictedTerms::place_of(const Light& light) const {
   Triple3 p = times(triple(light.position), pass_.fault.position);
   if (pass_.fault.mirrored_z) p[2] = -p[2];
   return p;
 }
 
+/// The falloff of a light at distance d, as the fault has it.
 double PredictedTerms::falloff(const Light& light, double d) const {
   const LightFault& fault = pass_.fault;
   const double range = double(light.range) * fault.range, k0 = double(light.attenuation.x),
@@ -115,6 +119,7 @@ double PredictedTerms::falloff(const Light& light, double d) const {
   return 1;
 }
 
+/// The cone's factor of a spot light at the cosine c to its axis; 1 where the fault drops cones.
 double PredictedTerms::cone(const Light& light, double c) const {
   if (pass_.fault.cone_dropped) return 1;
   const double outer_rad = double(light.cone_rad) + double(light.penumbra_rad), outer = std::cos(outer_rad),
@@ -137,7 +142,7 @@ double PredictedTerms::cone(const Light& light, double c) const {
   return 1;
 }
 
-/// What is powered: N.H, or R.V.
+/// The cosine that is powered: N.H or R.V, as the fault has them; 0 at least.
 double PredictedTerms::cosine_to_half(const Triple3& l, double n_l) const {
   using Half = LightFault::Half;
   const Half half = pass_.fault.half;
@@ -160,7 +165,7 @@ std::array<double, 4> PredictedTerms::finished(const Triple3& sum, double alpha)
   return pass_.program->finish(sum, values_);
 }
 
-/// The light as the fault has it, which the program is given.
+/// What the program adds of the light as the fault has it.
 Triple3 PredictedTerms::term_of_program(const Light& given) const {
   const LightFault& fault = pass_.fault;
   Light light = given;

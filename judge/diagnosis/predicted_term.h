@@ -8,14 +8,17 @@ namespace trueshade::oracle {
 /// The terms of a light pass at one surface. Borrows the pass.
 class PredictedTerms {
  public:
+  /// Runs the part of a light program that depends on the surface alone.
   PredictedTerms(const LightPass& pass, const PlainSurface& surface);
 
-  /// What the sum of a light program starts from, and what becomes of it; of a light model it is as it stands.
+  /// What the sum of a light program starts from. Only of a pass that has a light program.
   Triple3 start() const;
+  /// What a light program's finish() makes of a sum; the sum and `alpha` as they are where there is no finish().
   std::array<double, 4> finished(const Triple3& sum, double alpha) const;
 
-  /// What a light adds to the sum.
+  /// What one fragment of a light adds to the sum. `surface` is that of the constructor.
   Triple3 term(const PlainSurface& surface, const Light& light) const;
+  /// Whether a light's range, as the fault has it, reaches the surface; true of a light without a place.
   bool in_range(const PlainSurface& surface, const Light& light) const;
   /// How often the light is drawn at the surface's pixel.
   int fragments(const PlainSurface& surface, const Light& light) const;

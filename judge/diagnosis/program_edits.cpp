@@ -201,7 +201,9 @@ class EditList {
     changed(ProgramChange::srgb_decoded, 2.2, "has albedo to the power of 2.2 once too often");
   }
 
-  /// A cosine, say, as one factor more or less, or albedo as one more of a highlight.
+  /// Adds products and quotients of the step and the value of an earlier one (a cosine, say), and for a colour its
+  /// product with albedo: a factor too many or too few. The step is a product, a quotient or a power, the earlier one a
+  /// minimum, a maximum or a product. Adds nothing in programs of more than kMostSteps steps.
   void of_further_factors() {
     if (first().type != Type::f32 || (first().op != Op::f_mul && first().op != Op::f_div && first().op != Op::pow))
       return;
@@ -266,7 +268,9 @@ class EditList {
     edit.number = 1, edit.fitted = true;
   }
 
-  /// A value of the same kind: a scalar that is bounded or a product of vectors, or a vector of unit length.
+  /// Adds the step with one of its operands, unless that is a constant, replaced by the value of an earlier step: of a
+  /// scalar step by a minimum, maximum, sum, root or product, of a vector step by a vector that was made unit length.
+  /// Adds nothing for a select, nor in programs of more than kMostSteps steps.
   void of_operands() {
     if (first().type != Type::f32 || first().op == Op::select) return;
     if (steps_.size() > kMostSteps) return;

@@ -45,10 +45,12 @@ struct ProgramEdit {
   std::string text;  ///< what the line does then, "subtracts where it should add"
 };
 
-/// What may be done to the steps that light() depends on and that have a line of the user's, those that leave out or
-/// confuse something first, constants next, operands last.
+/// What may be done to the steps that light() depends on and that have a line of the user's, to its parameters and to
+/// albedo. In this order: an operation left out or confused, parameters, constants, squares and roots, albedo's
+/// encoding, factors of one term, further factors, a number as a factor, other operands.
 std::vector<ProgramEdit> program_edits(const programs::Program& program);
 
+/// The program with one change of program_edits() made.
 programs::Program edited(const programs::Program& program, const ProgramEdit& edit);
 
 }  // namespace trueshade::oracle

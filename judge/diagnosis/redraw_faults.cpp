@@ -171,7 +171,7 @@ bool recode_textures(Scene& s, Pipeline&, double) {
 bool bias_lod(Scene& s, Pipeline&, double bias) {
   return change_samplers(s, [bias](Sampler& sampler) { sampler.lod_bias += float(bias); });
 }
-/// Where maps have levels, which are not all that a filter reads.
+/// Lets filters read `most` places along the longer axis of a pixel. False where no colour map has levels.
 bool filter_anisotropically(const Scene& s, Sampling& rules, double most) {
   rules.anisotropy = int(most);
   return std::any_of(s.materials.begin(), s.materials.end(), [](const Material& m) {

@@ -9,8 +9,8 @@ struct DepthPlanes {
   double near = 0, far = 0;
 };
 
-/// Where a position ends up whose depth is made with one pair of planes and read with another. Positions behind the eye
-/// stay. `back`: the view's axis, towards the viewer.
+/// Where a position ends up whose depth is made with one pair of planes and read with another. Positions that are not
+/// before the eye stay, NaN among them. `back`: the view's axis, towards the viewer.
 inline Triple3 reread(const Triple3& eye, const Triple3& back, const Triple3& position, const DepthPlanes& made,
                       const DepthPlanes& read) {
   const Triple3 offset = minus(position, eye);

@@ -15,6 +15,7 @@ bool greater_is_nearer(const GeometryState& state) {
   return state.depth_func == DepthFunc::greater || state.depth_func == DepthFunc::gequal;
 }
 
+/// The window depth of a normalized one.
 double window_z(const GeometryState& state, double ndc) {
   const double near = double(state.depth_near), far = double(state.depth_far);
   if (state.clip_depth == ClipDepth::zero_to_one) return ndc * (far - near) + near;
@@ -79,8 +80,8 @@ void Sketch::draw(const Scene& scene, const Pipeline& pipeline, const Mesh& mesh
   }
 }
 
-/// In homogeneous coordinates, so that nothing need be clipped (Olano and Greer, "Triangle Scan Conversion using 2D
-/// Homogeneous Coordinates", 1997).
+/// Draws a triangle at the pixels that it covers, in homogeneous coordinates, so that nothing need be clipped (Olano
+/// and Greer, "Triangle Scan Conversion using 2D Homogeneous Coordinates", 1997).
 void Sketch::draw_triangle(const std::array<const Vertex*, 3>& v, const Faces& faces, const GeometryState& state,
                            double object) {
   std::array<Triple3, 3> corner;

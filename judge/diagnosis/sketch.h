@@ -8,14 +8,18 @@
 
 namespace trueshade::oracle {
 
+/// What is drawn at some pixels so far.
 class Sketch {
  public:
+  /// Nothing is drawn yet: call clear() first.
   Sketch(std::span<const SampledPixel> pixels, const Pipeline& pipeline);
 
+  /// Clears all pixels to the clear depth and no surface.
   void clear(const Pipeline& pipeline);
   /// Draws one instance of `mesh` over what is drawn already, by the pipeline's depth test and culling. Sets object,
   /// depth, position and normal of the pixels where it is seen. Call it in the order of submission.
   void draw(const Scene& scene, const Pipeline& pipeline, const Mesh& mesh, uint32_t instance);
+  /// What each pixel shows, in the order of the constructor's.
   std::span<const PlaneValues> pixels() const { return values_; }
 
  private:

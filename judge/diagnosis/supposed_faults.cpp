@@ -42,9 +42,11 @@ constexpr NamedRange kRanges[] = {
 };
 constexpr ParameterRange kAnyFactor{0.001, 1000}, kAnyDepth{-1e9, 1e9};
 
+/// An Error(usage) about one of the names.
 Error refused(const std::string& name, const std::string& reason, const std::string& remedy) {
   return {ErrorKind::usage, "--suppose", "'" + name + "' " + reason, remedy};
 }
+/// The Error of a name that no fault has, with a name that is like it.
 Error no_fault(const std::string& name) {
   if (name.starts_with("light-shader-"))
     return refused(name, "cannot be supposed: slips of a light program are looked for without it", "leave it out");
@@ -63,6 +65,7 @@ const Fault* fault_named(std::string_view name, std::initializer_list<std::span<
   return nullptr;
 }
 
+/// The indices of so many things.
 ParameterRange numbers_of(size_t count) { return {0, double(count) - 1, true}; }
 
 /// What the search looks for, where that says it; otherwise a range that is empty.
@@ -103,7 +106,8 @@ std::string text_of(const ParameterRange& range) {
          parameter_text(range.high);
 }
 
-/// A number, or a word that the fault has for one.
+/// The parameter that a text states: a number, or a word that the fault has for one. Error(usage) where the text is
+/// missing (null), or states no parameter that the fault takes.
 template <class Fault>
 double parameter_of(const Fault& fault, const Scene& scene, const std::string* text, const std::string& name) {
   char* end = nullptr;
@@ -129,6 +133,7 @@ double parameter_of(const Fault& fault, const Scene& scene, const std::string* t
   throw refuse(text_of(range));
 }
 
+/// Whether a number is an index of so many things; false of NaN.
 bool names_one(double index, size_t count) { return index >= 0 && index == std::floor(index) && index < double(count); }
 bool can_be(const PictureFault& fault, const Scene& scene, const FaultParameter& p) {
   if (fault.search == Search::vector) return true;
@@ -147,7 +152,8 @@ bool can_be(const GlassFault&, const Scene& scene, const FaultParameter& p) {
   return names_one(p.number, scene.instances.size());
 }
 
-/// `3:0.5,0,-1`: a light or an object that the fault can be of, and the fault's own numbers.
+/// The parameter that a text such as `3:0.5,0,-1` states: a light or an object that the fault can be of, and the
+/// fault's own numbers. Error(usage) where the text is missing (null), or states no such parameter.
 template <class Fault>
 FaultParameter several_numbers(const Fault& fault, const Scene& scene, const std::string* text,
                                const std::string& name) {
@@ -159,13 +165,14 @@ FaultParameter several_numbers(const Fault& fault, const Scene& scene, const std
                     (form.number ? ", the first a number of what it can be of" : ""));
 }
 
-/// Whether its numbers are more than the one that parameter_of() reads.
+/// Whether a fault has other numbers than the one that parameter_of() reads.
 bool has_several(const PictureFault& fault) {
   return fault.search == Search::one_light || fault.search == Search::vector;
 }
 bool has_several(const PlaneFault& fault) { return fault.search == PlaneFault::Search::suspected; }
 
-/// Adds the fault if there is one in the tables.
+/// Adds a fault with the parameter that `text` states; false, and nothing added, where `fault` is null. Error(usage)
+/// for a parameter that the fault does not take.
 template <class Named, class Fault>
 bool add_supposed(std::vector<Named>& to, const Fault* fault, const Scene& scene, const std::string* text,
                   const std::string& name) {

@@ -16,14 +16,15 @@ struct TangentFrame {
 /// mirrors, whose determinant a shader may be unable to tell from 0. `u` is left to the pixel.
 TangentFrame vertex_frame(const Projector& projector, uint32_t instance, uint32_t triangle);
 
-/// Of vertices in the world, as docs/arithmetic.md has it, in double; unless the profile has exact vertices, or of
-/// vertices in the object, turned into the world by the shader: three products of a row with one rounding each, two
-/// sums, and the rounding of the matrix element and of the direction, 5 v sum |m| |u|.
-/// uv_set: that the normal map reads.
+/// The frame of a triangle that a normal map is read in: of vertices in the world, as docs/arithmetic.md has it, in
+/// double; unless the profile has exact vertices, or of vertices in the object, turned into the world by the shader:
+/// three products of a row with one rounding each, two sums, and the rounding of the matrix element and of the
+/// direction, 5 v sum |m| |u|.
+///   uv_set: the set that the normal map reads
 TangentFrame tangent_frame(const Projector& projector, uint32_t instance, uint32_t triangle,
                            const TriangleValues& values, size_t uv_set);
 
-/// (T x + B y) + N z, of N as interpolated and x, y, z = 2 t - 1, x and y times `scale`.
+/// The ranges of the bent normal: (T x + B y) + N z, of N as interpolated and x, y, z = 2 t - 1, x and y times `scale`.
 ///
 /// Roundings are carried operation by operation for the N in the middle of its ranges. Another N, e away, is turned by
 /// theta <= e / (|N| - e). With phi the angle from N to U, the unit vectors T and B move by dtheta / sin phi

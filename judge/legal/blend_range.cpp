@@ -222,7 +222,7 @@ class CodeBlend {
     }
   }
 
-  /// At most so likely is it that a source is converted to another code than the nominal one.
+  /// A bound on how likely it is that a source is converted to another code than the nominal one.
   double chance(const BlendTerm& term, size_t k) const {
     const auto reads_alpha = [](BlendFactor f) {
       return f == BlendFactor::src_alpha || f == BlendFactor::one_minus_src_alpha ||

@@ -14,7 +14,8 @@ using Texel = std::array<LegalTexel, 4>;
 /// A channel that holds exactly `stored`.
 LegalTexel known_texel(double stored);
 
-/// One fragment blended, or stored where blending is off; channels masked off stay as they are.
+/// What a pixel may hold once one fragment is blended or, where blending is off, stored; channels masked off stay as
+/// they are.
 ///   source: of each channel, alpha last, before any clamp
 ///   stored: what the pixel may hold before
 /// By the profile's BlendRule. any_precision (GL 4.6 core, 17.3.6): sources, factors and constants clamped for fixed
@@ -37,7 +38,7 @@ Texel likely_texel(const BlendState& state, Format format, const Profile& profil
 /// rounding.
 inline constexpr double kSrgbDecodeError = 1.3e-3;
 
-/// The smallest texel that holds both; the first one's nominal value.
+/// The smallest texel that holds both, with the first one's nominal value.
 LegalTexel hull(const LegalTexel& a, const LegalTexel& b);
 
 }  // namespace trueshade::oracle

@@ -18,6 +18,7 @@ struct DrawnFragment {
   PixelClass doubt = PixelClass::edge;           ///< of another number of them than the nominal one
   std::optional<std::array<Range, 4>> likely{};  ///< what the likely rule draws, where that is another: of clears
 
+  /// What the likely rule draws.
   const std::array<Range, 4>& likely_source() const { return likely ? *likely : output.nominal; }
 };
 
@@ -30,8 +31,8 @@ struct Way {
 
 inline constexpr size_t kMostWays = 64;  // of drawing a pixel that are tried apart
 
-/// Every way from a known texel on, the nominal one first; more than kMostWays of them: the nominal one and the hull of
-/// all. Fragments in the order they are blended.
+/// Every way from a known texel on, the nominal one first. Of more than kMostWays: the nominal one and the hull of all.
+///   fragments: in the order in which they are blended
 std::vector<Way> ways_from(const Texel& from, std::span<const DrawnFragment> fragments, const BlendState& blend,
                            Format format, const Profile& profile);
 
@@ -40,8 +41,10 @@ std::vector<Way> ways_from(const Texel& from, std::span<const DrawnFragment> fra
 /// EXACT, with no rounding that could have gone another way.
 class AddedCodes {
  public:
+  /// Finds out whether the target suits.
   AddedCodes(Format format, const BlendState& blend);
 
+  /// Whether the target and the blending are such; otherwise as_predicted() is not asked.
   bool suit() const { return suit_; }
 
   /// Whether `after` is `before` and the nominal codes of one fragment, alpha left alone, where no other code than the

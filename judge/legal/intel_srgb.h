@@ -11,7 +11,7 @@
 
 namespace trueshade::oracle {
 
-/// As kLlvmpipeSrgbSteps.
+/// The steps of the encoding, in the form of kLlvmpipeSrgbSteps.
 inline constexpr uint32_t kIntelSrgbSteps[] = {
     0x391f22b5, 0x39eeb40d, 0x3a46eb61, 0x3a8b3e5d, 0x3ab3070b, 0x3adacfb7, 0x3b014c33, 0x3b153088, 0x3b2914e0,
     0x3b3cf935, 0x3b5428ad, 0x3b68f6ec, 0x3b7f1008, 0x3b8b1767, 0x3b974d03, 0x3ba4108f, 0x3bb178f1, 0xbbb18000,
@@ -72,7 +72,7 @@ inline constexpr uint32_t kIntelSrgbSteps[] = {
     0x3f75c036, 0x3f77f03d, 0x3f7a3063, 0x3f7c6da1, 0x3f7eb80f,
 };
 
-/// As kLlvmpipeSrgb.
+/// The encoding, in the form of kLlvmpipeSrgb.
 inline constexpr LlvmpipeSrgb kIntelSrgb = [] {
   LlvmpipeSrgb table;
   table.start.fill(std::numeric_limits<float>::infinity());

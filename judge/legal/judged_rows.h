@@ -15,10 +15,15 @@ class JudgedRows {
   /// A band is judged where its entry is not 0.
   explicit JudgedRows(std::vector<uint8_t> bands) : some_(true), bands_(std::move(bands)) {}
 
+  /// How many bands an image of so many rows has.
   static int bands_of(int height) { return (height + kBand - 1) / kBand; }
+  /// Whether all rows are judged.
   bool all() const { return !some_; }
-  const std::vector<uint8_t>& bands() const { return bands_; }  ///< empty where all rows are judged
+  /// Whether each band is judged, as the constructor was told; empty where all rows are.
+  const std::vector<uint8_t>& bands() const { return bands_; }
+  /// Whether a band is judged.
   bool has_band(int band) const { return !some_ || bands_[size_t(band)] != 0; }
+  /// Whether a row is judged.
   bool has(int y) const { return has_band(y / kBand); }
 
  private:

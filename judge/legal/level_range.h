@@ -11,14 +11,17 @@ namespace trueshade::oracle {
 
 using TexelHull = std::array<Range, 4>;  ///< of R, G, B, A; `value` is not set
 
+/// A hull that holds nothing, for include().
 TexelHull no_texel();
+/// Widens a hull so that it holds the other too.
 void include(TexelHull& hull, const TexelHull& other);
 
-/// sRGB as real numbers.
+/// A linear number encoded as sRGB, not clamped; NaN stays NaN.
 template <class Real>
 Real srgb_encoded(Real x) {
   return x <= Real(0.0031308L) ? Real(12.92L) * x : Real(1.055L) * std::pow(x, Real(1 / 2.4L)) - Real(0.055L);
 }
+/// An sRGB number decoded, clamped to [0, 1].
 template <class Real>
 Real srgb_decoded(Real s) {
   if (s <= Real(0.04045L)) return std::max(Real(0), s) / Real(12.92L);
@@ -38,10 +41,11 @@ struct TexelSource {
   bool encoded = false;
   double codes = 0;
 
+  /// What a hull of a level read so is of.
   LevelReading reading(size_t level) const;
-  /// By indices before wrapping.
+  /// The texel by its indices before wrapping.
   TexelValue at(size_t level, long long i, long long j) const;
-  /// By indices as wrapped_index() has them.
+  /// The texel by its indices as wrapped_index() has them.
   TexelValue at_wrapped(size_t level, long long x, long long y) const;
 };
 

@@ -10,6 +10,7 @@
 
 namespace trueshade::oracle {
 
+/// How many fragments of a light's mesh a pixel may have.
 struct FragmentCount {
   uint8_t least = 0, most = 0;
   uint8_t nominal = 0;     ///< the number if vertices are in the middle of their boxes
@@ -31,6 +32,7 @@ struct FragmentCount {
 /// error d of clip coordinates by |p x a| . d.
 class LightOutline {
  public:
+  /// Puts the mesh of a light into the window. Copies what it needs of the scene.
   LightOutline(const Scene& scene, const Pipeline& pipeline, const Profile& profile, std::array<int, 2> drawn_at,
                const Light& light, const LightMesh& mesh);
   ~LightOutline();

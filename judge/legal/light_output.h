@@ -8,6 +8,7 @@
 
 namespace trueshade::oracle {
 
+/// What one draw's fragment shader may output.
 struct LightOutput {
   std::array<Range, 4> nominal, other;  ///< RGBA before any clamp of the target; `other` where either_way
   bool either_way = false;              ///< a comparison of the shader may go to `other`
@@ -18,23 +19,29 @@ struct LightOutput {
 LightOutput output_of(const ProgramBounds& program, const ShadedSurface& surface, LitRange lit,
                       ProgramBounds::Registers& registers);
 
-/// Whether a colour's ranges are known: GLSL promises nothing of what is no number.
+/// Whether no value or end of a colour's ranges is NaN: GLSL promises nothing of what is no number. Infinite ends are
+/// numbers.
 bool are_numbers(const std::array<Range, 4>& color);
 
 /// The outputs of strategies that draw light by light: each draw's output is what finish() makes of that
 /// draw's own sum. A light is named by its place in Scene::lights. The scene is borrowed.
 class LightOutputs {
  public:
+  /// Makes the light program, or the light model as one. Throws as ProgramBounds does.
   LightOutputs(const Scene& scene, const Pipeline& pipeline, const Profile& profile);
 
-  LightOutput term(const ShadedSurface& surface, uint32_t light) const;  ///< the light's own, alone
-  LightOutput first(const ShadedSurface& surface) const;  ///< of the first light, with what the sum starts from
-  LightOutput start(const ShadedSurface& surface) const;  ///< what a surface has without lights
+  /// The output of a light's own draw.
+  LightOutput term(const ShadedSurface& surface, uint32_t light) const;
+  /// The output of the first draw of forward-multipass: light 0, with what the sum starts from.
+  LightOutput first(const ShadedSurface& surface) const;
+  /// The output of a draw without lights.
+  LightOutput start(const ShadedSurface& surface) const;
 
   /// How many fragments of a quad that ends at the light's range the surface has: 1, 0, or either.
   struct InRange {
     bool surely = true, perhaps = true, nominally = true;
   };
+  /// Compares the surface's distance with the light's range.
   InRange in_range(const ShadedSurface& surface, uint32_t light) const;
 
   /// Whether a fragment of the light counts as lit: in range and facing. One that adds nothing (outside its cone) may
@@ -42,16 +49,18 @@ class LightOutputs {
   struct Lit {
     bool surely = false, perhaps = false;
   };
+  /// Whether the fragment of one light counts.
   Lit lit(const ShadedSurface& surface, uint32_t light) const;
-  /// The same of terms() that were made with Block::counts: of their light j.
+  /// Whether the fragment of light j of terms() counts, which were made with Block::counts.
   Lit lit(const LitApart& terms, size_t j) const;
 
-  /// Many lights' terms in one go, ascending.
+  /// Sets `lit` to the terms of many lights in one go, which are ascending.
   void terms(const ShadedSurface& surface, std::span<const uint32_t> lights, ProgramBounds::Block& block,
              LitApart& lit) const;
   /// The output of a light whose colour is `color` and cannot be another; alpha as in term().
   LightOutput of_color(const ShadedSurface& surface, const Bounded3& color) const;
 
+  /// The light program, or the light model as one.
   const ProgramBounds& program() const { return program_; }
   /// Whether terms() are outputs, but for alpha: no finish() makes others of them.
   bool are_terms_outputs() const { return !program_.program().defines_finish; }

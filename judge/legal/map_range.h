@@ -15,13 +15,15 @@ std::optional<std::array<Range, 4>> map_texel(const Projector& projector, const 
                                               const SurfacePoint& point, const TriangleValues& values, double x,
                                               double y);
 
-/// a * b for ranges, with the arithmetic's rounding.
+/// a * b for ranges of any sign, with the arithmetic's rounding.
 Range product(const Range& a, const Range& b, const Profile& profile);
 
 /// Which ways the alpha test of a masked material may go.
 struct AlphaVerdict {
   bool may_keep = true, may_drop = false, nominal_keeps = true;
 };
+
+/// Holds the alpha of a masked material at a sample (x, y) against the cutoff. Looks the colour map up.
 AlphaVerdict alpha_verdict(const Projector& projector, const Material& material, const Piece& piece,
                            const SurfacePoint& point, const TriangleValues& values, double x, double y);
 

@@ -14,11 +14,13 @@ struct ClosedPatch {
     int sense;       ///< 1 counter-clockwise in the window, -1 clockwise, 0 not known
   };
   std::vector<Member> members;
-  int turns = 0;  ///< sum of the senses of those that have the sample
+  int turns = 0;  ///< the winding number about the sample, at nominal vertices; 0: no member need cover it
 };
-inline constexpr int kOpenPatch = 1 << 30;  ///< turns of what is no patch after all
+/// TransparentPixel::turns of a patch that tells nothing: a sense is not known, or a member is hidden.
+inline constexpr int kOpenPatch = 1 << 30;
 
-/// Patches among possible surfaces that are not certain and not masked (a hole in a mask is no seam).
+/// The patches among possible surfaces that are not certain and not masked (a hole in a mask is no seam). A surface is
+/// in at most one; one that is in doubt, but by no edge, is in none. (x, y): the sample in the window, y up.
 std::vector<ClosedPatch> closed_patches(const Projector& projector, std::span<const PossibleSurface> possible, double x,
                                         double y);
 

@@ -6,6 +6,7 @@
 
 namespace trueshade::oracle {
 
+/// The shape of a piece, made once for all samples.
 struct PieceShape {
   /// reach: Projector::window_reach().
   PieceShape(const Piece& piece, const Profile& profile, const Pair& reach);

@@ -19,14 +19,15 @@ enum class PixelClass : uint8_t {
   left_out,   ///< not judged: no class of the others, and in none of the figures
 };
 inline constexpr size_t kPixelClasses = 9;  ///< but for left_out
+/// A class as reports name it: `DEPTH-TIE`.
 std::string_view text(PixelClass c);
 
-/// Another surface or branch than the nominal one.
+/// Whether a pixel of that class shows another surface or branch than the nominal one.
 inline bool shows_another(PixelClass c) {
   return c == PixelClass::edge || c == PixelClass::depth_tie || c == PixelClass::clip || c == PixelClass::branch;
 }
 
-/// A class a pixel keeps when another of its draws has a lesser one.
+/// Whether a pixel of which one draw has class a and another class b keeps a.
 bool worse(PixelClass a, PixelClass b);
 
 }  // namespace trueshade::oracle

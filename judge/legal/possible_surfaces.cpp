@@ -62,7 +62,7 @@ class Band {
         bound_(front.begin() + int64_t(y0) * projector.width(), front.begin() + int64_t(y1) * projector.width()),
         most_(4 * bound_.size()) {}
 
-  /// In order of submission. `rect`: the pixels that it may have.
+  /// Adds the fragments of a triangle. Called in order of submission.
   void add(uint32_t instance, const NearTriangle& near, double order);
 
   int first_row() const { return y0_; }
@@ -180,7 +180,7 @@ std::vector<Work> work_of(const Projector& projector, const Search& search) {
   return work;
 }
 
-/// Those of the work's triangles that may have samples, in order.
+/// The work's triangles that may have samples, in order.
 std::vector<NearTriangle> near_of(const Projector& projector, const Work& work) {
   std::vector<NearTriangle> near;
   NearTriangle n{};

@@ -11,6 +11,7 @@
 
 namespace trueshade::oracle {
 
+/// A triangle that a pixel may show, and how surely.
 struct PossibleSurface {
   uint32_t instance = 0, triangle = 0;
   uint8_t piece = 0;
@@ -26,13 +27,15 @@ struct PossibleSurface {
 struct PossibleSurfaces {
   std::vector<uint32_t> first;  ///< width * height + 1
   std::vector<PossibleSurface> list;
+  /// The possible surfaces of a pixel, by its index; none where nothing may be seen.
   std::span<const PossibleSurface> at(size_t pixel) const {
     return {list.data() + first[pixel], first[pixel + 1] - first[pixel]};
   }
 };
 
-/// How a depth test orders fragments: the least key is seen. LESS and LEQUAL: z; GREATER and GEQUAL: -z; ALWAYS: the
-/// last drawn; EQUAL, NOTEQUAL: all alike, so that whatever was drawn is a possible surface; NEVER: nothing passes.
+/// The key of the clear depth. Keys are how a depth test orders fragments: the least one is seen. LESS and LEQUAL: z;
+/// GREATER and GEQUAL: -z; ALWAYS: the last drawn; EQUAL, NOTEQUAL: all alike, so that whatever was drawn is a possible
+/// surface; NEVER: nothing passes.
 double clear_key(const GeometryState& state);
 
 /// The possible surfaces of pixels where surfaces hide one another, found with every core. Memory: 56 bytes each, a few

@@ -14,6 +14,7 @@ struct Range {
 
 inline constexpr Range kAnyValue{0, -HUGE_VAL, HUGE_VAL};
 
+/// The range of a bounded number.
 inline Range range_of(const Bounded& b) { return {b.value, b.low(), b.high()}; }
 
 /// Stored values of one channel, as they read back (unorm: in codes, 0..255): everything from low to high.
@@ -26,6 +27,7 @@ struct LegalTexel {
   bool either_side = false;  ///< whether there are other values on both sides
   /// Anything may be stored for a value of which nothing is known: NaN too.
   bool is_open() const { return low != low || high != high || (low == -HUGE_VAL && high == HUGE_VAL); }
+  /// Whether a stored value is legal; NaN is only where anything is.
   bool contains(double stored) const { return (stored >= low && stored <= high) || is_open(); }
 };
 
@@ -35,10 +37,12 @@ struct LegalTexel {
 ///   exponent of 0.41666 (17.3.7) is 0.002 off. Of llvmpipe the nominal code is its own (core/llvmpipe_srgb.h). Half:
 ///   by the profile's mode, finite overflow to 65504 or infinity as the mode says. 11 and 10 bits: the same, but
 ///   negative values are 0 and finite ones stay below infinity. Float: the range itself, ends moved outward to floats.
+/// An end of the range that is NaN counts as infinite. Where both ends are infinite, a float may hold NaN too.
 LegalTexel legal_texel(const Range& range, Format format, int channel, const Profile& profile);
-LegalTexel legal_float(const Range& range);  ///< of channels that hold floats of 32 bits or numbers alone
+/// What a channel of 32-bit floats, or of integers, may hold: the range itself, ends moved outward to floats.
+LegalTexel legal_float(const Range& range);
 
-/// A profile of which stores and blends are those of the rule, wherever it leaves them open.
+/// The profile with the stores and blends of the rule, wherever the profile leaves them open.
 Profile following(const StoreRule& rule, const Profile& profile);
 
 /// What a draw would output to leave what a clear to `color` leaves: llvmpipe clears 10 and 16 bits by rounding halves
@@ -46,10 +50,12 @@ Profile following(const StoreRule& rule, const Profile& profile);
 /// colour itself.
 Range cleared_range(double color, Format format, int channel, const Profile& profile);
 
-/// llvmpipe makes 10 and 2 bits of codes of 16, rgba16's (docs/arithmetic.md section 11): whether `profile` says so of
-/// `format`; a stored code in 16 bits, its bits repeated; and a code of 16 bits stored, not always as the nearest.
+/// Whether `profile` says that codes of `format` are made of codes of 16 bits, rgba16's, as llvmpipe makes those of 10
+/// and 2 bits (docs/arithmetic.md section 11).
 bool computes_in_16_bits(Format format, const Profile& profile);
+/// A stored code of 10 or, in channel 3, of 2 bits in 16 bits: its bits are repeated.
 LegalTexel widened(const LegalTexel& stored, int channel);
+/// A code of 16 bits as llvmpipe stores it in 10 or 2 bits, which is not always the nearest.
 LegalTexel narrowed(const LegalTexel& wide, int channel);
 
 }  // namespace trueshade::oracle

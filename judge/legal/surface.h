@@ -60,13 +60,15 @@ class SurfacePoint {
 
   /// What glPolygonOffset adds (GL 4.6 core, 14.6.5): m factor + r units, with m between the larger slope and the norm
   /// of both, of the plane through any vertices of the box, or of any three corners of what clipping leaves that may
-  /// have the sample; r of the profile, in float depth of the largest |z| of the
-  /// vertices, `largest`, or of the triangles that clipping may have cut the piece into.
+  /// have the sample; r of the profile, in float depth of the largest |z| of the vertices, `largest`, or of the
+  /// triangles that clipping may have cut the piece into.
   Range depth_offset(const GeometryState& state, double largest) const;
 
-  /// value, error: at the three vertices of the piece.
+  /// An attribute at the sample; kAnyValue where nothing bounds it.
+  ///   value, error: at the three vertices of the piece
   Range attribute(const std::array<double, 3>& value, const std::array<double, 3>& error,
                   Interpolation interpolation) const;
+  /// The same of an attribute that is made ready, with its plane's error.
   Range attribute(const VertexAttribute& vertices, Interpolation interpolation) const;
 
  private:
@@ -117,18 +119,21 @@ class SurfacePoint {
 struct TriangleValues {
   std::array<VertexValues, 3> value{}, error{};
 };
+
+/// The attributes of a triangle as its vertex shader makes them.
 TriangleValues triangle_values(const Projector& projector, uint32_t instance, uint32_t triangle);
 
-/// Of attribute `index` at the vertices of a piece, to be interpolated so: combinations by their weights.
+/// Sets `value` and `error` to attribute `index` at the vertices of a piece, to be interpolated so: they are
+/// combinations of the triangle's by the vertices' weights.
 void piece_values(const Piece& piece, const TriangleValues& values, size_t index, Interpolation interpolation,
                   std::array<double, 3>& value, std::array<double, 3>& error);
 
-/// VertexAttribute::plane_error of such values.
+/// VertexAttribute::plane_error of such values, which are not flat.
 double plane_error_of(const Piece& piece, const PieceShape& shape, const std::array<double, 3>& value,
                       Interpolation interpolation);
 
-/// Depth as the depth buffer may hold it: offset, clamped to the depth range, rounded to its format: fixed-point depth
-/// as k / largest, k the code.
+/// The depth as the depth buffer may hold it: offset, clamped to the depth range, and rounded to the buffer's format,
+/// fixed-point depth as k / largest, k the code.
 Range stored_depth(const SurfacePoint& point, const GeometryState& state, const Profile& profile, double largest);
 
 /// A depth that was read back, or cleared to, as stored_depth() has it: of fixed-point formats the nearest k / largest.

@@ -207,7 +207,7 @@ std::array<float, 3> unit_in_floats(const std::array<double, 3>& v) {
 
 }  // namespace
 
-/// Of vectors a and b with |a - b| <= D the directions are at most 2 D / (|a| + |b|) apart, and |b| >= |a| - D. What
+/// The directions of vectors a and b with |a - b| <= D are at most 2 D / (|a| + |b|) apart, and |b| >= |a| - D. What
 /// computes a direction (GLSL's inversesqrt, a dot product before and a product behind it) is off by 4.5 roundings, for
 /// which 6 are taken. Where planes are exact and the vector is one float each, the direction is the renderer's own.
 Range normalized(const Range& x, const Range& y, const Range& z, int k, const Profile& profile) {

@@ -20,6 +20,7 @@ using SurfaceTexels = std::array<std::optional<std::array<Range, 4>>, kMaterialM
 /// One possible surface at one sample (x, y), pixels, y up. Borrows the projector.
 class SurfaceValues {
  public:
+  /// Makes the triangle's form, and looks its material's maps up.
   SurfaceValues(const Projector& projector, const PossibleSurface& possible, double x, double y);
 
   /// The same of a triangle whose form is known.
@@ -28,16 +29,23 @@ class SurfaceValues {
                 double x, double y, SurfacePoint::Within within = SurfacePoint::Within::box,
                 const SurfaceTexels* texels = nullptr);
 
+  /// SurfacePoint::bounded(): false where planes may be anything.
   bool bounded() const { return point_.bounded(); }
-  // Which channels come from a lookup: the albedo's, the specular colour's, the shininess, the emission's, the share of
-  // ambient light, the normal's.
+  /// Whether the albedo comes from a lookup.
   bool textured() const { return texels_[kColorMap] || texels_[kMetalMap]; }
+  /// Whether the specular colour comes from a lookup.
   bool glossy() const { return maps_metals(model_) ? textured() : texels_[kSpecularMap].has_value(); }
+  /// Whether the shininess comes from a lookup.
   bool rough() const { return texels_[kMetalMap].has_value(); }
+  /// Whether the emission comes from a lookup.
   bool glowing() const { return texels_[unlit_ ? kColorMap : kEmissionMap].has_value(); }
+  /// Whether the share of ambient light comes from a lookup.
   bool shaded() const { return texels_[kOcclusionMap].has_value(); }
+  /// Whether the normal comes from a lookup.
   bool bumpy() const { return bent_.has_value(); }
+  /// Whether any of them comes from a lookup.
   bool looked_up() const { return textured() || glossy() || glowing() || shaded() || bumpy(); }
+  /// The surface's material, which is the scene's.
   const Material& material() const { return *material_; }
 
   Range depth() const;                                               ///< as the depth buffer may hold it
@@ -76,13 +84,13 @@ class SurfaceValues {
   bool may_be_back() const { return material_->double_sided && (!piece_->facing_known || !piece_->front); }
 };
 
-/// A possible surface's fragment as lights read it where no plane is between.
+/// A possible surface's fragment as lights read it where no plane is between, by the interpolations of `planes`.
 ShadedSurface shaded_surface(const SurfaceValues& values, const GBufferState& planes);
 
-/// Component k of n / |n|.
+/// Component k of n / |n|, n of these ranges.
 Range normalized(const Range& x, const Range& y, const Range& z, int k, const Profile& profile);
 
-/// n 0.5 + 0.5, what fixed-point planes hold of a normal: halving is exact, the sum is rounded once.
+/// The range of n 0.5 + 0.5, what fixed-point planes hold of a normal: halving is exact, the sum is rounded once.
 Range halved_normal(const Range& n, const Profile& profile);
 
 }  // namespace trueshade::oracle

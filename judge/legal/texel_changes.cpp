@@ -30,7 +30,7 @@ struct Lookup {
                    between(texel(level, i, j + 1), texel(level, i + 1, j + 1), right), up);
   }
 
-  /// As oracle::filtered() has it.
+  /// The texel at a level of detail, as oracle::filtered() has it.
   DoubleTexel at(double lod) const {
     const Sampler& s = texels.sampler;
     const double last = double(texels.texture.levels.size() - 1);

@@ -27,13 +27,15 @@ enum class TexelCause : uint8_t {
 };
 inline constexpr size_t kTexelCauses = 7;
 
+/// A texel, and how each cause changes it.
 struct TexelChanges {
   using Rgba = std::array<double, 4>;
   Rgba texel{};                             ///< by the way
   std::array<Rgba, kTexelCauses> change{};  ///< of the texel, for one unit of each cause
 };
 
-/// Nothing where the filter or the nearest texel may be another one, so that the nominal one says little.
+/// What a lookup gives by a way, and how that changes. Nothing where the filter or the nearest texel may be another
+/// one, so that the nominal one says little.
 ///   normals: the texture is a normal map
 std::optional<TexelChanges> texel_changes(const Texture& texture, const Sampler& sampler, const TexturePlace& place,
                                           bool normals, const TexelWay& way);

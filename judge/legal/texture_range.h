@@ -16,12 +16,14 @@ struct TextureSample {
   TexturePlace least, most;  ///< |derivatives| over the sample and its neighbours: a GPU takes differences in a quad
 };
 
-/// uv: the attribute's values at the piece's vertices; u, v: its ranges at the sample (x, y).
+/// A piece about the sample (x, y) as lookups see it: texture coordinates and their derivatives.
+///   uv:   the attribute's values at the piece's vertices
+///   u, v: its ranges at the sample
 TextureSample texture_sample(const Piece& piece, const std::array<std::array<double, 3>, 2>& uv, Interpolation how,
                              const Range& u, const Range& v, double x, double y);
 
 /// RGBA of a lookup: nominal value and hull, over the places of the sample and what Profile::sampling leaves open.
-/// `hulls` keeps what is found of whole levels for other lookups. Never changes a value.
+///   hulls: if not null, keeps what is found of whole levels for other lookups; never changes a value
 std::array<Range, 4> texel_range(const Texture& texture, const Sampler& sampler, const TextureSample& sample,
                                  const Profile& profile, LevelHulls* hulls = nullptr);
 

@@ -11,20 +11,25 @@
 
 namespace trueshade::oracle {
 
-/// For one thread at a time: some of it is made when it is first asked for.
+/// What all samples of a triangle have in common. For one thread at a time: some of it is made when it is first asked
+/// for.
 class TriangleForm {
  public:
+  /// Makes the pieces, their shapes and the vertices' values. Borrows the projector.
   TriangleForm(const Projector& projector, uint32_t instance, uint32_t triangle);
 
+  /// Projector::pieces() of the triangle.
   const std::vector<Piece>& pieces() const { return pieces_; }
+  /// The shape of a piece.
   const PieceShape& shape(size_t piece) const { return forms_[piece].shape; }
+  /// triangle_values() of the triangle.
   const TriangleValues& values() const { return values_; }
 
   /// An attribute at the vertices of a piece, ready for this interpolation, which is not flat.
   ///   index: a ValueIndex plus a component
   const VertexAttribute& attribute(size_t piece, size_t index, Interpolation interpolation) const;
 
-  /// Of the uv set that the material's normal map reads; of vertices' tangents the side alone.
+  /// The frame of the uv set that the material's normal map reads; of vertices' tangents the side alone.
   const TangentFrame& tangents() const;
 
  private:
@@ -47,8 +52,10 @@ class TriangleForm {
 /// The triangles that were asked for last. For one thread at a time.
 class TriangleForms {
  public:
+  /// Borrows the projector.
   explicit TriangleForms(const Projector& projector) : projector_(projector), slots_(kSlots) {}
-  /// Valid until the next call; its copies are longer.
+  /// The form of a triangle, which is made unless it is kept. The reference is valid until the next call, its copies
+  /// longer.
   const std::shared_ptr<const TriangleForm>& of(uint32_t instance, uint32_t triangle);
 
  private:

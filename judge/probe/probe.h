@@ -30,13 +30,15 @@ struct ProbedField {
   std::string against;  ///< the frame that speaks against the next tighter value; empty where there is none
 };
 
+/// What was found of a driver.
 struct ProbeResult {
   Profile profile;
   std::vector<ProbedField> fields;
   std::vector<std::string> set_aside;  ///< frames that no OpenGL may have drawn: nothing is learnt of these
 };
 
-/// Each value of each field is asked of frames until one of them speaks against it: some seconds of one core.
+/// Finds the tightest profile that no frame speaks against, and calls it `name`. Each value of each field is asked of
+/// frames until one of them speaks against it: some seconds of one core.
 ProbeResult probe_profile(const std::vector<ProbeFrame>& frames, const std::string& name);
 
 /// A held-out frame under a profile.
@@ -44,6 +46,8 @@ struct ProbeCheck {
   std::string frame;
   uint64_t pixels = 0, exact = 0, violations = 0;  ///< of all stages
 };
+
+/// Judges a frame by a profile.
 ProbeCheck check_profile(const ProbeFrame& frame, const Profile& profile);
 
 }  // namespace trueshade::oracle

@@ -14,13 +14,14 @@ struct AggregateTest {
   double observed = 0, low = 0, high = 0;  ///< expected between these
   double chance = 1;    ///< at most so likely is it, of an implementation that follows the rule; all regions counted
   std::string where{};  ///< of a region: `tile of 16x16 at 32,48`
+  /// Whether what was seen is at least so likely.
   bool passes(double least_chance) const { return chance >= least_chance; }
 };
 
 inline constexpr size_t kAggregateTests = 9;  ///< a stage
 
-/// The likelihood that a sum of independent numbers between 0 and 1, of which `mean` is expected, is at least
-/// `observed`: Bernstein's bound exp(-t^2 / (2 (mean + t / 3))) with t = observed - mean.
+/// A bound on the likelihood that a sum of independent numbers between 0 and 1, of which `mean` is expected, is at
+/// least `observed`: Bernstein's bound exp(-t^2 / (2 (mean + t / 3))) with t = observed - mean.
 double chance_of_at_least(double observed, double mean);
 
 /// The tests of a stage. Pixels of one triangle, and stores of equal values, are one choice, which counts for the share
@@ -37,7 +38,7 @@ double chance_of_at_least(double observed, double mean);
 ///                      stores or of surfaces, against the share that they have elsewhere
 std::vector<AggregateTest> aggregate_tests(const StageVerdict& verdict);
 
-/// The test with the smallest chance.
+/// The test with the smallest chance; there is at least one.
 const AggregateTest& least_likely(const std::vector<AggregateTest>& tests);
 
 }  // namespace trueshade::oracle

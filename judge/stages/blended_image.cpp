@@ -139,6 +139,7 @@ void BlendingJudge::carry(PixelState& p, std::span<const DrawnFragment> fragment
   }
 }
 
+/// Draws the transparent surfaces over what the pixel may hold.
 void BlendingJudge::cover(int x, int y) {
   PixelState& p = pixels_[at(x, y)];
   const TransparentPixel pixel = layers_->at(x, y);
@@ -151,6 +152,8 @@ void BlendingJudge::cover(int x, int y) {
     if (!layer.certain) p.same *= 1 - double(layer.chance_other);
 }
 
+/// Judges what the last image holds at a pixel by what it may hold, unless the pixel is UNDEFINED already, and records
+/// it.
 void BlendingJudge::judge_last(int x, int y, const Image& last) {
   PixelState& p = pixels_[at(x, y)];
   if (p.pixel_class == PixelClass::undefined) return;

@@ -134,6 +134,8 @@ StageVerdict BlendingJudge::verdict(std::string_view stage, const Image* last) {
   return verdict_of(stage, profile_, pipeline_.width, pipeline_.height, rows_);
 }
 
+/// Judges the lights that wait, over all rows with every core, and keeps the target after the last of them for the next
+/// batch.
 void BlendingJudge::judge_batch() {
   const size_t count = batch_.size();
   const std::span<const Light> lights = std::span(scene_.lights).subspan(size_t(first_), count);
@@ -160,6 +162,7 @@ void BlendingJudge::judge_batch() {
   batch_.clear();
 }
 
+/// Judges one row under all lights of the batch. Does nothing where none may draw and nothing changed.
 void BlendingJudge::judge_row(int y, RowWork& work) {
   const size_t count = batch_.size();
   work.counts.resize(count), work.drawn.assign(count, 1), work.changed.assign(count, 0);
@@ -178,6 +181,7 @@ void BlendingJudge::judge_row(int y, RowWork& work) {
     if (!mask_.has(x, y)) judge_pixel(x, y, work);
 }
 
+/// Judges one pixel under all lights of the batch, one after the other.
 void BlendingJudge::judge_pixel(int x, int y, RowWork& work) {
   const std::span<const TiedSurface> tied = tied_at(x, y);
   const bool covered = covered_[at(x, y)] != 0, shown = covered || !tied.empty();
@@ -260,6 +264,8 @@ void BlendingJudge::count_lights(int x, int y, size_t i, size_t j, const Fragmen
     add(outputs_.lit(work.lit[t], j), 0, visible_count(tied[t].surface, i, {1, 1, 1}).most);
 }
 
+/// Holds light.count at a pixel, where it was captured, against the lights counted: makes the pixel a violation where
+/// it is another.
 void BlendingJudge::check_count(int x, int y) {
   PixelState& p = pixels_[at(x, y)];
   if (!count_ || covered_[at(x, y)] == 0 || p.pixel_class == PixelClass::undefined) return;
@@ -271,6 +277,8 @@ void BlendingJudge::check_count(int x, int y) {
   rows_[size_t(y)].record(x, y, p.pixel_class, m, "after all lights");
 }
 
+/// Sets work.fragments to those of light i of the batch, which is work.lights[j], in order of submission: of the tied
+/// surfaces and of the visible one.
 void BlendingJudge::fragments(int x, int y, size_t i, size_t j, const FragmentCount& count, RowWork& work) const {
   work.fragments.clear();
   const std::span<const TiedSurface> tied = tied_at(x, y);
@@ -300,6 +308,7 @@ void BlendingJudge::fragments(int x, int y, size_t i, size_t j, const FragmentCo
   add_tied(false);
 }
 
+/// Whether a texel is one that a way leaves. Adds what was found of its channels to `m`.
 bool BlendingJudge::fits(const Way& way, const PlaneView& view, int x, int y, Match& m) const {
   for (int k = 0; k < view.channels; ++k) {
     const LegalTexel& t = way.texel[size_t(k)];
@@ -309,8 +318,9 @@ bool BlendingJudge::fits(const Way& way, const PlaneView& view, int x, int y, Ma
   return m.legal;
 }
 
-/// The roundings of a draw that went the nominal way: what its fragments make of a known texel by the nominal rule, and
-/// what was stored. Equal sources on equal texels are one choice; of codes that are added the source alone decides.
+/// Sets m.choices to the roundings of a draw that went the nominal way: what its fragments make of a known texel by the
+/// nominal rule, and what was stored. Equal sources on equal texels are one choice; of codes that are added the source
+/// alone decides.
 void BlendingJudge::choose(int x, int y, const Texel& before, std::span<const DrawnFragment> drawn,
                            const BlendState& blend, const PlaneView& view, Match& m) const {
   m.choices.clear();
@@ -331,6 +341,8 @@ void BlendingJudge::choose(int x, int y, const Texel& before, std::span<const Dr
   }
 }
 
+/// Gives a pixel the worse of its class and c, and records what was found of a light's draw (below 0: before the
+/// lights).
 void BlendingJudge::keep(int x, int y, PixelClass c, const Match& m, int light) {
   PixelState& p = pixels_[at(x, y)];
   if (worse(c, p.pixel_class)) p.pixel_class = c;
@@ -350,6 +362,9 @@ void BlendingJudge::unchanged(int x, int y, size_t i) {
   Match m;
   if (!fits(way, PlaneView(&now), x, y, m)) keep(x, y, PixelClass::violation, m, first_ + int(i));
 }
+
+/// Judges one draw at a pixel by what the target held before it (null: nothing) and what it holds after it (`given`).
+/// Where the latter is null, it was not seen, and what the pixel may hold is carried on.
 void BlendingJudge::judge(int x, int y, int light, const Image* before, const Image* given,
                           std::span<const DrawnFragment> fragments, const BlendState& blend) {
   PixelState& p = pixels_[at(x, y)];

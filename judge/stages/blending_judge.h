@@ -33,28 +33,34 @@ struct PixelState {
   PixelClass doubt = PixelClass::branch;
   int lights_low = 0, lights_high = 0;  ///< fragments of lights in range and facing so far: light.count
 
-  /// One more draw, which leaves `t` by the likely rule: with that draw's own chance of another rounding.
+  /// Notes one more draw, which leaves `t` by the likely rule, with that draw's own chance of another rounding.
   void draw_likely(const Texel& t, const std::array<Range, 4>& source);
   /// What the likely rule leaves after all draws, with the chances of all of them.
   LegalTexel likely_channel(size_t k) const;
 };
 
+/// Called in this order: start(), light() for each light, find_layers() if the image is judged alone, verdict().
 class BlendingJudge {
  public:
   /// Borrows all but the profile. Throws as CapturedSurface does.
   BlendingJudge(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
                 const JudgedRows& judged = {});
 
-  /// The target before the first light. `given`: what it was seen to be; null: not seen.
+  /// Judges the target as it was before the first light: the clear value or, where the pipeline draws one, the base.
+  /// `given`: the target as captured then; null: it was not seen, and what it may hold is carried on to the last image.
+  /// Called once, before light().
   void start(const Image* given);
 
-  /// The next light. Many are judged together, so that what a pixel's lights share is computed once.
+  /// The next light, in order from 0. `given`: the target as captured after it; null exactly where start() had null.
+  /// Lights are judged many at a time, so that what a pixel's lights share is computed once.
   void light(int index, const Image* given);
 
-  /// Surfaces blended over what the lights may leave: of judge_blended().
+  /// Finds the transparent surfaces, which verdict() then blends over what the lights may leave. Only judge_blended()
+  /// calls it. It finds nothing where the pipeline blends none after the lights.
   void find_layers(const Capture& capture);
 
-  /// `last`: the final image, where the steps were not seen.
+  /// Judges the lights that are left and, if `last` is not null, that image, and returns what was found. Called once.
+  ///   last: the final image, where the steps were not seen; else null
   StageVerdict verdict(std::string_view stage, const Image* last);
 
  private:

@@ -10,17 +10,23 @@ namespace trueshade::oracle {
 /// The surface of each pixel, from the capture's own planes. Borrows the capture. y counts from the top.
 class CapturedSurface {
  public:
-  /// Throws Error(bad_input) naming a plane that the light model reads and the capture lacks.
+  /// Throws Error(bad_input) naming a plane that the light model reads and the capture lacks, or that has another size
+  /// than the pipeline's; also where neither id.object nor depth tells where a surface is, and for a camera without an
+  /// inverse where positions are rebuilt from depths.
   CapturedSurface(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture);
 
+  /// Whether there is a surface, by id.object or, without it, by the depth.
   bool covered(int x, int y) const;
+  /// The surface as the light pass reads it; where there is none, what the planes hold there.
   ShadedSurface at(int x, int y) const;
 
   /// The target's alpha where there is a surface, before any clamp.
   Bounded alpha(const ShadedSurface& surface) const {
     return pipeline_.light_model.alpha_from_albedo ? surface.albedo[3] : Bounded{1, 0};
   }
+  /// The plane id.object; empty where it was not captured.
   const PlaneView& object() const { return object_; }
+  /// The plane depth; empty where it was not captured.
   const PlaneView& depth() const { return depth_; }
 
  private:
@@ -41,7 +47,7 @@ class CapturedSurface {
   Matrix4 world_from_clip_{};
 };
 
-/// Error(bad_input) naming a plane that a light program reads and the capture lacks.
+/// Throws Error(bad_input) naming a plane that a light program reads and the capture lacks.
 void require_planes_of(const ProgramBounds& program, const Capture& capture);
 
 /// A component of a normal as shaders read it from a fixed-point plane: 2 c - 1. Doubling is exact, contracted or not

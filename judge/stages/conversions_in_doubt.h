@@ -7,17 +7,18 @@
 
 namespace trueshade::oracle {
 
-/// Of a row of pixels the draws whose conversion may give either of two codes. Of rows with very many some pixels alone
+/// The draws of a row of pixels whose conversion may give either of two codes. Of rows with very many some pixels alone
 /// are kept, chosen by a number that looks like chance.
 class ConversionsInDoubt {
  public:
-  /// A draw at x that is blended over what was there.
+  /// Notes a draw at x that is blended over what was there.
   void add(int x, const NearThreshold& conversion);
 
-  /// A draw at x replaces what was there: what was noted of that channel is forgotten.
+  /// Notes that a draw at x replaces what was there: what was noted of that channel is forgotten.
   void replace(int x, int channel);
 
-  /// Those of a channel of a pixel, in the order of the draws. Valid until the next draw.
+  /// The conversions of a channel of a pixel, in the order of the draws; none where the pixel is not kept. Valid until
+  /// the next draw.
   std::span<const NearThreshold> at(int x, int channel);
 
  private:

@@ -14,17 +14,20 @@ struct Evidence {
   bool as_stated = true;  ///< that rule is the one that profile and pipeline state
   bool against = false;   ///< the image follows none
 
+  /// The test with the smallest chance.
   const AggregateTest& least_likely() const { return oracle::least_likely(tests); }
 };
 
 /// Holds a stage to the stated rule and, where that fails, to the other rules that are known and that the profile
-/// allows: nearest codes, within 0.6 (D3D11.3), llvmpipe's with the estimates of AMD's and of Intel's CPUs, sums kept in
-/// floats (softpipe); halves toward zero and to nearest. A stage with violations is not tried again: its pixels convict it.
-///   judge: the same stage by another profile
+/// allows: nearest codes, within 0.6 (D3D11.3), llvmpipe's with the estimates of AMD's and of Intel's CPUs, sums kept
+/// in floats (softpipe); halves toward zero and to nearest. A stage with violations is not tried again: its pixels
+/// convict it.
+///   judge: judges the same stage by another profile; called for each other rule until the image follows one
 Evidence evidence_of(const StageVerdict& stated, const std::function<StageVerdict(const Profile&)>& judge,
                      const Profile& profile, double least_chance);
 
-/// `10^12` of 1e-12 and below, with the exponent rounded down; `1,000` alike.
+/// One in how many a chance is: `1000`, or from 10^4 on a power of ten with its exponent rounded down, `10^12`. Of a
+/// chance that is not above 0, `more than 10^300`.
 std::string one_in(double chance);
 
 }  // namespace trueshade::oracle

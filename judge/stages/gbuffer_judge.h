@@ -29,6 +29,7 @@ enum class Asked : uint8_t { classes, violations };
 /// The texel of the last range that was asked for: colours are constant over many pixels.
 class LastTexel {
  public:
+  /// legal_texel() of a range. The plane, the channel and the profile are the same at every call.
   const LegalTexel& of(const Range& range, const PlaneView& view, int channel, const Profile& profile) {
     const bool is_same =
         is_known_ && range.value == range_.value && range.low == range_.low && range.high == range_.high;
@@ -45,6 +46,7 @@ class LastTexel {
 
 /// What one thread keeps from pixel to pixel.
 struct GBufferMemory {
+  /// Borrows the projector.
   explicit GBufferMemory(const Projector& projector) : forms(projector), narrowed(projector, forms) {}
   TriangleForms forms;
   std::array<LastTexel, 4> constants;  ///< of the albedo
@@ -52,16 +54,20 @@ struct GBufferMemory {
   std::vector<const PossibleSurface*> legal;
 };
 
+/// Judges the surfaces of one capture by one profile. Borrows the scene, the capture and `wider`.
 class GBufferJudge {
  public:
+  /// Finds the possible surfaces of the rows, unless `wider` has them. Throws as judge_gbuffer().
   /// wider: possible surfaces by a profile that allows all of this one; null: they are looked for here.
   /// hulls: of the scene's textures; null where none are known.
   GBufferJudge(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
                const JudgedRows& rows, Asked asked, const PossibleSurfaces* wider, std::shared_ptr<LevelHulls> hulls);
 
-  /// Rows of a band, tile by tile: pixels that are near each other show the same triangles.
+  /// Judges the rows from y to before `end` into `rows`, tile by tile: pixels that are near each other show the same
+  /// triangles. From any thread.
   void judge_band(int y, int end, std::vector<RowTally>& rows) const;
 
+  /// Hands over what was found. The last call.
   FoundSurfaces take_found() { return {std::move(possible_), projector_.level_hulls()}; }
 
  private:
@@ -104,7 +110,7 @@ class GBufferJudge {
   /// Whether the pixel shows one surface with its vertices in the middle of their boxes: it is legal then, and else may
   /// be so.
   bool fits_middle(const PossibleSurface& c, int x, int y_top, GBufferMemory& memory) const;
-  /// An integer of the range.
+  /// Judges a stored shininess, which is an integer of the range.
   template <typename Found>
   void judge_shininess(const Range& range, double stored, uint32_t pixel, bool looked_up, Found& m) const;
 
@@ -136,7 +142,7 @@ class GBufferJudge {
   std::optional<TransparentLayers> layers_;  ///< blended into the albedo
 };
 
-/// The verdict on these rows.
+/// Judges these rows, with every core, and returns the verdict.
 StageVerdict verdict_by(const GBufferJudge& judge, const Pipeline& pipeline, const Profile& profile,
                         const JudgedRows& judged);
 

@@ -15,9 +15,11 @@ struct Hypothesis {
   uint64_t surfaces = 0;           ///< pixels of the G-buffer's stage
   std::optional<uint64_t> lights;  ///< pixels of the target's stage; nothing where that stage is not judged
 
+  /// Pixels of both stages.
   uint64_t violations() const { return surfaces + lights.value_or(0); }
 };
 
+/// What was found of the implementation.
 struct Inference {
   std::optional<int> subpixel_bits;  ///< nothing where no grid explains the image
   std::optional<SnapRule> snap;
@@ -44,10 +46,11 @@ JudgedRows sampled_rows(int width, int height);
 /// before: what that judgement found, for speed alone; may be null.
 Inference infer_profile(const Scene& scene, const Pipeline& pipeline, const Capture& capture,
                         std::span<const StageVerdict> judged = {}, const JudgedBefore* before = nullptr);
+/// The same from a sample that is given.
 Inference infer_profile(const Scene& scene, const Pipeline& pipeline, const Capture& capture, const JudgedRows& sample,
                         const JudgedBefore* before = nullptr);
 
-/// One line: `8 bits, nearest; planes snapped; half toward zero; unorm within 0.5`.
+/// What was found in one line: `8 bits, nearest; planes snapped; half toward zero; unorm within 0.5`.
 std::string text(const Inference& inference);
 
 }  // namespace trueshade::oracle

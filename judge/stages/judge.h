@@ -21,20 +21,20 @@ struct FoundSurfaces {
   std::shared_ptr<LevelHulls> level_hulls{};  ///< of the scene's textures, whatever the profile
 };
 
-/// The G-buffer planes of `capture` (those of depth, position, normal, albedo, uv, id.object, id.material that it has,
-/// and specular and emission where the light model reads them) against the surfaces each pixel may show. A pixel must
-/// equal one possible surface in all planes together, or the clear values where nothing is sure to cover it.
+/// Judges the G-buffer planes of `capture` (those of depth, position, normal, albedo, uv, id.object, id.material that
+/// it has, and specular and emission where the light model reads them) against the surfaces each pixel may show. A
+/// pixel must equal one possible surface in all planes together, or the clear values where nothing is sure to cover it.
 /// Transparent surfaces are none of these; into-albedo blends them into the plane albedo alone, which must be one that
 /// their draws may leave (where nothing opaque is, nobody reads it: it may also be clear). An edge shared by two
 /// triangles has exactly one owner: where triangles that meet about a sample close around it, the clear value and what
 /// is behind them are not legal. Half planes follow the profile's mode; `ideal` follows the pipeline's half_round.
 /// Throws Error(bad_input) for planes of another size than the pipeline's, or none at all.
-/// `rows`: the verdict counts these alone.
-/// `found`: where it is not null, what was found in these rows is left there.
+///   rows:  the verdict counts these alone
+///   found: where it is not null, what was found in these rows is left there
 StageVerdict judge_gbuffer(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
                            const JudgedRows& rows = {}, FoundSurfaces* found = nullptr);
 
-/// The target against the lights summed over the capture's own planes, in double, with the error bound of
+/// Judges the target against the lights summed over the capture's own planes, in double, with the error bound of
 /// docs/gl_rules.md section 6. Needs position (or depth, under position_from_depth), normal and albedo; id.object or
 /// depth tell where there is a surface. light.count, where captured, must be one the comparisons allow.
 /// Surfaces transparent after the lights are followed, each fragment from what the pixel may hold before it.
@@ -52,32 +52,32 @@ struct JudgedBefore {
   const StageVerdict* lighting = nullptr;  ///< judge_lighting() of all rows, where that was asked
 };
 
-/// The violations alone of judge_gbuffer(): every other pixel is EXACT, and nothing is known of the whole image.
+/// Finds the violations alone of judge_gbuffer(): every other pixel is EXACT, and nothing is known of the whole image.
 /// `before`: may be null; is passed over where its profile does not allow all that `profile` allows.
 StageVerdict gbuffer_violations(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                                 const Capture& capture, const JudgedRows& rows, const JudgedBefore* before);
 
-/// The same of judge_lighting().
+/// Finds the violations alone of judge_lighting(), likewise.
 StageVerdict lighting_violations(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                                  const Capture& capture, const JudgedRows& rows, const JudgedBefore* before);
 
-/// Strategies that blend, light by light: the target after each light against what the driver's *own* target before it
-/// may become. Of deferred-volumes each covering triangle of the light's geometry is a fragment (light_cover.h); EDGE
-/// and CLIP are pixels with another number of them than the nominal one. Of forward-multipass what may share the
-/// visible surface's depth may add to it too: DEPTH-TIE. A pixel's class is its worst over all lights, and one that is
-/// a violation after one light is judged from what it then holds after the next.
+/// Judges strategies that blend, light by light: the target after each light against what the driver's *own* target
+/// before it may become. Of deferred-volumes each covering triangle of the light's geometry is a fragment
+/// (light_cover.h); EDGE and CLIP are pixels with another number of them than the nominal one. Of forward-multipass
+/// what may share the visible surface's depth may add to it too: DEPTH-TIE. A pixel's class is its worst over all
+/// lights, and one that is a violation after one light is judged from what it then holds after the next.
 StageVerdict judge_blending(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                             const Capture& capture, const LightSteps& steps);
 
-/// The same by each profile, the lights drawn once.
+/// judge_blending() by each profile, the lights drawn once.
 std::vector<StageVerdict> judge_blending(const Scene& scene, const Pipeline& pipeline,
                                          std::span<const Profile> profiles, const Capture& capture,
                                          const LightSteps& steps);
 
-/// Surfaces blended over the target after the lights: the target after each against what the driver's *own* target
-/// before it may become. `objects`: the target before the first of them (-1), then after transparent instances in
-/// order, not necessarily all; the last among them. Fragments are tested against the capture's plane depth where it has
-/// one. A pixel's class is its worst over all steps.
+/// Judges surfaces blended over the target after the lights: the target after each against what the driver's *own*
+/// target before it may become. `objects`: the target before the first of them (-1), then after transparent instances
+/// in order, not necessarily all; the last among them. Fragments are tested against the capture's plane depth where it
+/// has one. A pixel's class is its worst over all steps.
 StageVerdict judge_transparency(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                                 const Capture& capture, const LightSteps& objects);
 

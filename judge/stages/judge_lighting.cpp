@@ -38,7 +38,7 @@ class LightingJudge {
       layers_.emplace(scene, pipeline, profile, capture, rows);
   }
 
-  /// Rows from y on, tile by tile: pixels that are near each other have few lights.
+  /// Judges the rows from y to before `end` into `rows`, tile by tile: pixels that are near each other have few lights.
   void judge_rows(int y, int end, std::vector<RowTally>& rows) const {
     Tile tile;
     tile.block.counts = bool(count_);

@@ -22,8 +22,8 @@ struct LegalPixel {
   std::array<LegalChannel, 4> channel{};  ///< each where the other channels are the nominal ones
 };
 
-/// Judges the target of one pixel by the capture's own planes there, as judge_lighting() judges all. (x, y) counts from
-/// the top left.
+/// Judges the target of one pixel by the capture's own planes there, as judge_lighting() judges all, and finds what
+/// each channel may hold: for this it judges the pixel up to two more times a channel. (x, y) counts from the top left.
 ///   nominal: the target of the reference, legal at the pixel and of the capture's size and format
 /// Throws as judge_lighting().
 LegalPixel legal_pixel(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,

@@ -20,9 +20,9 @@ struct TestedCause {
   double tolerance = 0;   ///< what the linear model may be off
 };
 
-/// In the order of TexelCause. Levels: log2 as drivers have it is 0.045 off. Shifts: weights have at least 7 bits
-/// (VK-GL-CTS). Steps: from floor to ceil. Rho: as far beside the picture's way as from one limit to the middle. An
-/// order is one of two.
+/// The tests of maps, in the order of TexelCause. Levels: log2 as drivers have it is 0.045 off. Shifts: weights have at
+/// least 7 bits (VK-GL-CTS). Steps: from floor to ceil. Rho: as far beside the picture's way as from one limit to the
+/// middle. An order is one of two.
 constexpr TestedCause kTexelTests[kTexelCauses] = {{"gain", {0, 0}, 0.003}, {"level", {-0.06, 0.06}, 0.08},
                                                    {"", {-1, 1}},           {"", {-0x1p-6, 0x1p-6}},
                                                    {"", {-0x1p-6, 0x1p-6}}, {"", {-0.6, 0.6}},
@@ -33,7 +33,8 @@ constexpr TestedCause kSwitch{"", {-0.6, 0.6}};  // in place of a level, where t
 
 constexpr double kCode = 1.0 / 255;  // what rounding alpha and 1 - alpha to codes may be off together
 
-/// In the order of GlassCause. A blend has a source, two products and a sum, each of which may be cut.
+/// The tests of glass, in the order of GlassCause. A blend has a source, two products and a sum, each of which may be
+/// cut.
 constexpr TestedCause kGlassTests[kGlassCauses] = {
     {"alpha", {-kCode, kCode}, 0.001}, {"", {-2, 2}}, {"", {-2, 2}}, {"", {-2, 2}}};
 
@@ -130,16 +131,17 @@ class MapsByWay {
     tested_ = by(best_.way);
   }
 
-  /// By the way that leaves least.
+  /// The deviations by the way that leaves least.
   const std::vector<Tested>& tested() const { return tested_; }
 
-  /// By the other decoder of sRGB: which of them it was shows less than what a decoder does to a gain.
+  /// The deviations by the other decoder of sRGB, none where no map is sRGB: which of them it was shows less than what
+  /// a decoder does to a gain.
   std::vector<std::vector<Tested>> by_other_decoder() const {
     if (!has_srgb_) return {};
     return {by(with_other_decoder(best_.way))};
   }
 
-  /// By the other order of decoding and filtering, by both decoders.
+  /// The deviations by the other order of decoding and filtering, by both decoders; none where no map is sRGB.
   std::vector<std::vector<Tested>> by_other_order() const {
     if (!has_srgb_) return {};
     return {by(other_.way), by(with_other_decoder(other_.way))};
@@ -190,8 +192,8 @@ class MapsByWay {
   std::vector<Tested> tested_;
 };
 
-/// Of the stages that judge a whole picture: draw by draw llvmpipe's blends lean by more than these causes say (two of
-/// 2,000 random frames).
+/// The deviations under glass of a stage that judges a whole picture: draw by draw llvmpipe's blends lean by more than
+/// these causes say (two of 2,000 random frames).
 std::vector<Tested> tested_glass(const Scene& scene, const StageVerdict& stage) {
   std::map<uint32_t, Tested> by_material;
   for (const GlassDeviation& g : stage.glass) {

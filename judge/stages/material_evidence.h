@@ -25,17 +25,17 @@ struct MaterialEvidence {
   bool is_of_channel = false;  ///< of one of several channels that are tested together, too
   bool against = false;        ///< no implementation that is known makes it
 
-  /// `material 3 (floor)`.
+  /// The material in words: `material 3 (floor)`.
   std::string subject() const;
-  /// `color_map has a gain of 0.97 in albedo, where 0.996 to 1.004 are expected`.
+  /// What was found, in words: `color_map has a gain of 0.97 in albedo, where 0.996 to 1.004 are expected`.
   std::string text() const;
 };
 
-/// Of each material's maps gains, scales of normal maps, levels, and whether all are decoded in one order; of glass its
-/// alpha. What implementations choose is estimated beside these, as one number for a material and plane: the formula of
-/// rho between the limits of 8.14.1, 2^-6 of a texel, how 8-bit steps, factors and blends are rounded, when and how
-/// sRGB is decoded. Passed over is what too few pixels tell, or what such a choice would make, too: what is against maps
-/// is so by either order and decoder of sRGB.
+/// Tests each material's maps for gains, scales of normal maps, levels, and whether all are decoded in one order, and
+/// glass for its alpha. What implementations choose is estimated beside these, as one number for a material and plane:
+/// the formula of rho between the limits of 8.14.1, 2^-6 of a texel, how 8-bit steps, factors and blends are rounded,
+/// when and how sRGB is decoded. Passed over is what too few pixels tell, or what such a choice would make, too: what
+/// is against maps is so by either order and decoder of sRGB.
 ///   stages: as judged
 ///   significance: how many right images may fail one of the tests
 std::vector<MaterialEvidence> material_evidence(const Scene& scene, const Pipeline& pipeline, const Profile& profile,

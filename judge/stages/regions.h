@@ -16,10 +16,10 @@ struct PixelChoice {
   bool other;      ///< it did
 };
 
-/// Of tiles of 8, 16, 32 and 64 pixels, and of the image's halves, the one whose choices are the least likely. An
-/// implementation may use any share of the latitude that is predicted, but the same share everywhere: at most the one
-/// that it is seen to use outside of the region, with room for chance. The test's `chance` is that of finding such a
-/// region among all that were looked at.
+/// The test of the region whose choices are the least likely, of tiles of 8, 16, 32 and 64 pixels and of the image's
+/// halves. An implementation may use any share of the latitude that is predicted, but the same share everywhere: at
+/// most the one that it is seen to use outside of the region, with room for chance. The test's `chance` is that of
+/// finding such a region among all that were looked at.
 ///   least_share: of what is expected at most, taken for granted everywhere: edges of one direction move together
 AggregateTest least_likely_region(const char* name, double least_share, std::vector<PixelChoice> choices, int width,
                                   int height);

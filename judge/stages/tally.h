@@ -21,29 +21,36 @@ struct PlaneView {
   const DecodedPlane* decoded = nullptr;  ///< where the values are unpacked ones
 
   PlaneView() = default;
+  /// Borrows the image; null: an empty view, of which nothing but operator bool is asked.
   explicit PlaneView(const Image* i);
+  /// Whether there is a plane.
   explicit operator bool() const { return image != nullptr; }
-  double stored(int x, int y, int channel) const {  ///< y from the top
+  /// The code, or the float or integer, that a channel holds; y from the top.
+  double stored(int x, int y, int channel) const {
     if (!is_words_) return stored_otherwise(x, y, channel);
     uint32_t word;
     std::memcpy(&word, &image->texels[(pixel(x, y) * size_t(layout.channels) + size_t(channel)) * sizeof word],
                 sizeof word);
     return layout.number_class == NumberClass::integer ? double(word) : double(std::bit_cast<float>(word));
   }
+  /// Whether channels hold codes.
   bool unorm() const { return layout.number_class == NumberClass::unorm; }
-  /// Bounds of DecodedPlane on a component; 0 of a plane that is as it was stored. y from the top.
+  /// DecodedPlane::reading_error of a component; 0 of a plane that is as it was stored. y from the top.
   double reading_error(int x, int y) const {
     return decoded == nullptr ? 0 : decoded->at(decoded->reading_error, pixel(x, y));
   }
+  /// DecodedPlane::packing_error of a component; 0 of a plane that is as it was stored. y from the top.
   double packing_error(int x, int y) const {
     return decoded == nullptr ? 0 : decoded->at(decoded->packing_error, pixel(x, y));
   }
+  /// The index of a pixel; y from the top.
   size_t pixel(int x, int y) const { return size_t(y) * size_t(image->width) + size_t(x); }
+  /// Whether channels hold codes or small floats, so that stores round.
   bool quantised() const { return unorm() || layout.small_float(); }
   /// A value as the plane would hold it but for rounding: of fixed point in codes, sRGB encoded; else the value itself.
   double held(double value, int channel) const;
-  /// How far the stored channel is from what it is expected to hold; nothing where the format clamps it, or is a
-  /// float of 10 or 11 bits.
+  /// How far the stored channel is from what it is expected to hold; nothing where the format clamps it, where it is a
+  /// float of 10 or 11 bits, and where one of the two is NaN or infinite. The causes are left to the caller.
   std::optional<Deviation> deviation(int x, int y, int channel, double expected) const;
   /// A constant a shader writes, as stored() has it: exactly stored by every format.
   double constant(double value, int channel) const { return unorm() ? value * layout.largest_code(channel) : value; }
@@ -60,7 +67,7 @@ std::string channel_of(std::string_view plane, int channel);
 /// The plane of that name, empty if there is none. Error(bad_input) if its size is not the pipeline's.
 PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string_view name);
 
-/// The target. Error(bad_input) if there is none.
+/// The target. Error(bad_input) if there is none, or its size is not the pipeline's.
 PlaneView target_of(const Capture& capture, const Pipeline& pipeline);
 
 /// A store of codes or small floats.
@@ -90,7 +97,8 @@ struct Match {
   uint64_t stored_values = 0;
   PixelClass layered = PixelClass::exact;  ///< of transparent fragments, another number than the nominal one
 
-  /// Judges one channel.
+  /// Judges one channel: sets `legal` to false where the stored number is not legal, as NaN is not unless anything is.
+  /// Else notes the channel's error, its rounding and the choice that it had.
   void channel_is(const PlaneView& view, const char* name, int channel, const Range& range, double stored,
                   uint32_t pixel, const Profile& profile);
   /// The same of a channel that a texture lookup decides: another legal value is TEX, and no rounding to be counted.
@@ -99,6 +107,8 @@ struct Match {
   /// The same of a channel whose legal texels are known; `value` is the real one before the store.
   void texel_is(const PlaneView& view, const char* name, int channel, const LegalTexel& texel, double value,
                 double stored, uint32_t pixel, const Profile& profile);
+  /// Sets `legal` to false, and keeps the channel if it is the farthest outside so far; NaN is infinitely far.
+  ///   unit: what the excess is counted in, unless the range is wider
   void note(const char* name, int channel, const LegalTexel& legal, double stored, double unit);
 };
 
@@ -127,13 +137,16 @@ struct RowTally {
   std::vector<float> excess;  ///< of violations by x, as far as the last of them
   std::vector<float> shown;   ///< of some lit pixels: the part by which light must be off to be a violation there
 
-  /// `pixel`: y * width + x, y from the top.
+  /// Notes that a pixel (y * width + x, y from the top) may show another surface or branch.
   void may_be_other(uint32_t pixel, uint64_t surface, double chance);
-  /// `surface`: where the class is_told().
+  /// Takes the pixel that comes next in the row: its class, its stores beside those of the pixel to the left, and what
+  /// record() takes. Stores of an UNDEFINED pixel do not count.
+  ///   surface: the surface meant, in words; read where the class is_told()
   void take(int x, int y, PixelClass c, const Match& match, const std::string& surface);
-  /// A pixel that is not judged.
+  /// Takes a pixel that is not judged.
   void leave_out() { classes.push_back(PixelClass::left_out); }
-  /// All of take() but the pixel's class: of a stage that looks at a pixel more than once.
+  /// Adds a pixel's figures, choices and, where the class is_told(), a WorstPixel. Not its class: for a stage that
+  /// looks at a pixel more than once.
   void record(int x, int y, PixelClass c, const Match& match, const std::string& surface);
 
  private:
@@ -152,6 +165,7 @@ struct RowTally {
 /// The likely rule of stores is the tightest that the profile's knobs leave, nearest codes where they leave all.
 Profile resolved(const Profile& profile, const Pipeline& pipeline);
 
+/// Adds up the rows, from the top. The pixels of a row that was not judged are EXACT.
 StageVerdict verdict_of(std::string_view stage, const Profile& profile, int width, int height,
                         std::vector<RowTally>& rows);
 

@@ -14,7 +14,7 @@
 
 namespace trueshade::oracle {
 
-/// Of one material's channels that go together.
+/// The deviations of one material's channels that go together.
 struct TextureDeviations {
   uint32_t material = 0;
   std::string_view plane;         ///< `albedo`, `albedo.A`, `specular`, `emission`, `emission.A`, `normal`
@@ -22,7 +22,8 @@ struct TextureDeviations {
   std::vector<Deviation> list;    ///< in the order of the pixels
 };
 
-/// Pixels whose nearest texel is in doubt, and values that a format clamps, are passed over.
+/// How far the textured pixels are from nominal, by material and plane, with what one unit of each cause would make of
+/// them. Pixels whose nearest texel is in doubt, and values that a format clamps, are passed over.
 ///   profile: resolved()
 ///   way: of all lookups
 std::vector<TextureDeviations> texture_deviations(const Scene& scene, const Pipeline& pipeline, const Profile& profile,

@@ -39,8 +39,8 @@ struct ToldStore {
   auto operator<=>(const ToldStore&) const = default;
 };
 
-/// Of a threshold: the least upper bound of a store above it, and the largest lower bound of one below. Where they
-/// cross, the threshold is anywhere between.
+/// What is known of a threshold: the least upper bound of a store above it, and the largest lower bound of one below.
+/// Where they cross, the threshold is anywhere between.
 struct ThresholdBounds {
   float least_above = HUGE_VALF, most_below = -HUGE_VALF;
   bool are_below(const NearThreshold& s) const { return s.low > std::max(least_above, most_below); }
@@ -96,7 +96,7 @@ void Telling::learn(const ToldStore& s) {
     b.most_below = std::max(b.most_below, s.low);
 }
 
-/// Which way a conversion went, where every sum that those before it may have left says the same.
+/// Which way a conversion went, where every sum that those before it may have left says the same; else Went::either.
 Telling::Went Telling::went(const NearThreshold& s, int least_earlier, int most_earlier) const {
   if (converted_ == Converted::what_is_added) least_earlier = most_earlier = 0;
   std::optional<Went> all;

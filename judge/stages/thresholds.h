@@ -8,7 +8,8 @@
 
 namespace trueshade::oracle {
 
-/// A value that is converted to codes, if a conversion within `reach` of them may give either of two.
+/// A value that is converted to codes, if a conversion within `reach` of them may give either of two; nothing where it
+/// can give one alone.
 ///   range: before it is scaled by `largest`; what rounding the product may add is added here
 ///   before: the code that the result is added to; 0 where it is stored
 /// `sum_of` and `uppers` are left to the caller.

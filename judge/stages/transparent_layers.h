@@ -58,13 +58,13 @@ struct GlassChange {
   int blends = 0;
 };
 
-/// A fragment is tested against the depth that the opaque surfaces left: the capture's own where it has that plane,
-/// else that of any opaque surface that may be seen there. LESS and LEQUAL (GREATER and GEQUAL alike): sure to pass
-/// where all of its depths are in front of that one, may pass where some are; ALWAYS passes; EQUAL and NOTEQUAL may go
-/// either way where it may have that very depth.
+/// The transparent fragments of all pixels. A fragment is tested against the depth that the opaque surfaces left: the
+/// capture's own where it has that plane, else that of any opaque surface that may be seen there. LESS and LEQUAL
+/// (GREATER and GEQUAL alike): sure to pass where all of its depths are in front of that one, may pass where some are;
+/// ALWAYS passes; EQUAL and NOTEQUAL may go either way where it may have that very depth.
 class TransparentLayers {
  public:
-  /// Pixels of other rows than `rows` have none.
+  /// Finds the fragments that may be seen, with every core. Pixels of other rows than `rows` have none.
   TransparentLayers(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
                     const JudgedRows& rows = {});
   ~TransparentLayers();
@@ -72,22 +72,26 @@ class TransparentLayers {
   /// Whether any fragment may be at the pixel; y from the top.
   bool any(int x, int y) const;
 
-  /// Those of instances [first, end). into-albedo: sources are albedos; after-lights: lit colours.
+  /// The fragments of instances [first, end) that may be seen at a pixel, shaded, y from the top. into-albedo: sources
+  /// are albedos; after-lights: lit colours.
   TransparentPixel at(int x, int y, uint32_t first, uint32_t end) const;
+  /// The fragments of all instances.
   TransparentPixel at(int x, int y) const { return at(x, y, 0, ~uint32_t(0)); }
 
   /// Every way to draw the layers onto a texel, the nominal one first. Triangles of a patch are in a way that its sum
   /// of turns allows. More than six layers in doubt: the nominal way, and the hull of all.
   std::vector<LayeredTexel> ways(const TransparentPixel& pixel, const Texel& from) const;
 
-  /// Of layers of one material without maps that are drawn for sure; nothing of others.
+  /// What layers of one material without maps that are drawn for sure make of a pixel; nothing of other layers.
   ///   from: what the pixel holds before them, values
   std::optional<GlassChange> change(const TransparentPixel& pixel, const std::array<double, 4>& from) const;
 
-  /// All ways at once: of a pixel that is not known but to lie in a set.
+  /// Draws the layers onto what a pixel may hold, all ways at once: sets `at` to what it may hold then, and why its two
+  /// sets may differ.
   void carry(const TransparentPixel& pixel, CarriedTexel& at) const;
 
-  Format format() const { return format_; }  ///< of what is blended into
+  /// The format of what is blended into.
+  Format format() const { return format_; }
 
  private:
   struct Front;
@@ -107,7 +111,7 @@ class TransparentLayers {
   std::optional<ProgramBounds> lights_;  ///< after_lights
 };
 
-/// The scene with its transparent surfaces gone, but not their places among the instances.
+/// A copy of the scene with its transparent surfaces gone, but not their places among the instances.
 Scene without_transparent(const Scene& scene);
 
 }  // namespace trueshade::oracle

@@ -12,6 +12,7 @@
 
 namespace trueshade::oracle {
 
+/// How a capture is judged.
 struct ValidateOptions {
   Profile profile;             ///< what is promised; by default what OpenGL promises with 4 subpixel bits
   bool infer = false;          ///< also find the tightest profile: judgements of some rows, and one or two more of all
@@ -22,6 +23,7 @@ struct ValidateOptions {
   bool surfaces = true;  ///< false: the G-buffer is taken as it is, and only what lights make of it is judged
 };
 
+/// Everything there is to say about a capture.
 struct Verdict {
   std::string scene, driver;
   std::string profile;

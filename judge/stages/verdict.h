@@ -74,6 +74,7 @@ struct GlassDeviation {
   Deviation deviation;  ///< by GlassCause
 };
 
+/// What was found of one stage.
 struct StageVerdict {
   std::string stage, profile;
   int width = 0, height = 0;
@@ -99,10 +100,13 @@ struct StageVerdict {
                               ///< each by itself; 0 where nothing is lit, 1 where it may be off by more
   std::vector<float> excess;  ///< WorstPixel::excess of each pixel, 0 of legal ones; empty: there is no violation
 
+  /// How many pixels were judged.
   uint64_t judged() const { return classes.size() - left_out; }
-
+  /// How many pixels have a class.
   uint64_t count(PixelClass c) const { return counts[size_t(c)]; }
+  /// Whether no pixel is a violation.
   bool passes() const { return count(PixelClass::violation) == 0; }
+  /// How many pixels show another legal surface or branch.
   uint64_t explained() const {
     return count(PixelClass::edge) + count(PixelClass::depth_tie) + count(PixelClass::clip) + count(PixelClass::branch);
   }
