@@ -8,6 +8,8 @@
 #include "judge/bounds/shaded_surface.h"
 #include "judge/legal/judged_rows.h"
 #include "oracle/capture.h"
+#include "scenes/pipeline/pipeline.h"
+#include "scenes/scene.h"
 
 namespace trueshade::oracle {
 
