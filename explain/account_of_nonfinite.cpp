@@ -68,7 +68,8 @@ class Origins {
     return earliest;
   }
 
-  /// `sqrt(-1) is NaN`
+  /// What a node makes of its operands, `sqrt(-1) is NaN`; of an input its name, `light.range is NaN`; of a constant,
+  /// and of a choice, which took one, `a constant is inf`.
   std::string text(NodeId id) const {
     const ProgramNode& node = program_.nodes[id];
     const std::string is = " is " + number_text(float_of(bits_[id]));

@@ -12,7 +12,9 @@ using programs::Op;
 using programs::ProgramNode;
 using programs::Rate;
 
-/// The bits of a surface's value of a field of the interface's `Surface`.
+/// The bits of a surface's value of a field of the interface's `Surface`, by its full name, such as `surface.normal.x`:
+/// an integer of ids and places, else a float. Any other name is taken for occlusion: programs that read `uv1`,
+/// `tangent` or `user` do not come here.
 uint32_t of_surface(std::string_view name, const SurfacePlanes& s, WindowPixel pixel) {
   const size_t component = std::string_view("xyzw").find(name.back());
   const size_t c = component == std::string_view::npos ? 0 : component;

@@ -220,8 +220,9 @@ void Leading::hear(int rank, std::optional<RankSays> says) {
   }
 }
 
-/// Compares the identity in a rank's hello with that of rank 0. A rank that differs is left out; any other may be
-/// handed tasks from now on.
+/// Compares the identity in a rank's hello, which has come, with that of rank 0; once for a rank, as it takes the
+/// hello's words. A rank that differs is left out by leave_out(), which fails the run unless continue_without_lost is
+/// set; any other may be handed tasks from now on, as let_have() says.
 void Leading::meet(int rank) {
   Other& other = others_[size_t(rank)];
   const std::vector<std::string> words = std::move(other.hello->words);

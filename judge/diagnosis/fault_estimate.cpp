@@ -184,8 +184,8 @@ bool Estimate::fits(const Color& value, const SampledPixel& pixel, double steps)
   return true;
 }
 
-/// The lights, at most three, whose term times `sign` makes most wrong pixels as given when it is added; the likeliest
-/// first. Empty where there is none.
+/// The lights whose term times `sign`, added to what is predicted, makes wrong pixels as given: at most three, that of
+/// the most pixels first, by their weights and among each_voter()'s alone. Empty where no light fits any pixel.
 std::vector<double> Estimate::lights(double sign) const {
   const LightPass& pass = supposed_.pass;
   const bool blends = blends_lights(pass.pipeline.strategy);
@@ -237,8 +237,8 @@ double round_number(uint32_t low, uint32_t high) {
   return double(low);
 }
 
-/// How many lights are drawn, of the scene's or of those in range of a pixel, that most wrong pixels agree with. Empty
-/// where no count makes any of them as given.
+/// How many lights are drawn, of the scene's or of those in range of a pixel: the counts by which the most wrong pixels
+/// are as given. Empty where no count makes any of them so.
 std::vector<double> Estimate::counts(bool at_pixel) const {
   const LightPass& pass = supposed_.pass;
   const auto all = uint32_t(pass.lights.size());

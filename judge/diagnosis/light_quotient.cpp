@@ -189,7 +189,7 @@ class QuotientFit {
            });
   }
 
-  /// Sets the text of a quotient that has none.
+  /// Sets the text from the curve, in place of any that is there. The curve has a step or more.
   void describe(LightQuotient& q) const {
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (const auto& step : q.curve) low = std::min(low, step.factor), high = std::max(high, step.factor);

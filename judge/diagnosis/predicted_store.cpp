@@ -57,7 +57,8 @@ void PredictedStore::blend(const Triple3& source, double alpha, const BlendState
   for (size_t k = 0; k < 4; ++k) texel[k] = double(after[k]);
 }
 
-/// The code of a value by the rule, clamped to [0, 1]; NaN is 0.
+/// The code that a store leaves in a unorm channel, not of sRGB, by the rule: of the value clamped to [0, 1]; NaN is 0.
+/// What is within a part in 1e7 of a whole code is that code.
 double PredictedStore::code_of(double x, int channel) const {
   const double steps = (x > 0 ? std::min(x, 1.0) : 0.0) * layout_.largest_code(channel);
   if (rule_ == LightFault::Store::truncated) return std::floor(steps * (1 + 1e-7));  // as floats have whole codes

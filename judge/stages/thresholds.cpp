@@ -55,7 +55,8 @@ class Telling {
     for (size_t i = 0; i < stores_.size(); i += stores_[i].sum_of) untold_.push_back(i);
   }
 
-  /// How many stores and sums no places of the thresholds explain.
+  /// How many stores must be left out, at least, so that places of the thresholds explain all others of the told sums;
+  /// and of the other sums those that the known thresholds contradict. Tells the sums as it goes; called once.
   double crossed() {
     constexpr int kMostRounds = 8;
     for (int round = 0; round < kMostRounds; ++round) {
