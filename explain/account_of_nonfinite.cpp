@@ -68,13 +68,14 @@ class Origins {
     return earliest;
   }
 
-  /// What a node makes of its operands, `sqrt(-1) is NaN`; of an input its name, `light.range is NaN`; of a constant,
-  /// and of a choice, which took one, `a constant is inf`.
+  /// What a node makes of its operands, `sqrt(-1) is NaN`; of an input its name, `light.range is NaN`; of a constant
+  /// `a constant is inf`; of a choice the same of what it took.
   std::string text(NodeId id) const {
     const ProgramNode& node = program_.nodes[id];
     const std::string is = " is " + number_text(float_of(bits_[id]));
     if (node.op == Op::input) return program_.inputs[node.bits].name + is;
-    if (node.op == Op::constant || node.op == Op::select) return "a constant" + is;
+    if (node.op == Op::select) return text(followed(id).front());
+    if (node.op == Op::constant) return "a constant" + is;
     std::vector<Expression> operands;
     for (const NodeId operand : node.operands()) {
       const bool is_float = program_.nodes[operand].type == programs::Type::f32;
