@@ -67,9 +67,10 @@ std::string verdict_of_rows(const FolderComparison& folders) {
 
 std::string rows_text(const FolderComparison& folders) {
   const size_t all = folders.rows.size();
-  size_t same = 0, name_width = 7;
+  size_t same = 0, masked = 0, name_width = 7;
   for (const PictureRow& row : folders.rows) {
     same += row.state == RowState::same ? 1 : 0;
+    masked += row.state == RowState::same && row.left_out_pixels > 0 ? 1 : 0;
     if (row.state != RowState::same) name_width = std::max(name_width, printable(row.name, Lines::one).size());
   }
   std::string text = "verdict     " + verdict_of_rows(folders) + '\n';
@@ -95,7 +96,9 @@ std::string rows_text(const FolderComparison& folders) {
           line + name + std::string(name_width + 2 - name.size(), ' ') + printable(row_reason(row), Lines::one) + '\n';
     }
   }
-  return same > 0 ? text + "same        " + std::to_string(same) + (same == 1 ? " picture\n" : " pictures\n") : text;
+  if (same == 0) return text;
+  return text + "same        " + std::to_string(same) + (same == 1 ? " picture" : " pictures") +
+         (masked > 0 ? " (" + std::to_string(masked) + " with pixels left out)\n" : "\n");
 }
 
 std::string rows_json(const FolderComparison& folders) {

@@ -719,6 +719,10 @@ TEST_CASE("compare --criteria: the first pattern that fits a name has a picture'
   write_floats(folder.path("mask.exr"), right_half, {"Y"});
   const auto masked = outcomes("flat.exr --pixels 24 --mask mask.exr --allow-mask\nnoise/c.exr --pixels 24\n");
   CHECK(passing(masked) == Names{"flat.exr"});
+  write_floats(folder.path("test/flat.exr"), dark, kRgb);
+  folder.write("criteria.txt", "flat.exr --mask mask.exr --allow-mask\n");
+  CHECK(has(run_compare(folder, {"ref", "test", "--criteria", "criteria.txt"}).out,
+            "same        1 picture (1 with pixels left out)\n"));
 
   const auto refused = [&folder](const char* criteria, const char* about) {
     folder.write("criteria.txt", criteria);
