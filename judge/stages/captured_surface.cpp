@@ -108,7 +108,7 @@ PlaneView CapturedSurface::required(const Capture& capture, std::string_view nam
   const PlaneView view = plane_of(capture, pipeline_, name);
   if (!view)
     throw Error(ErrorKind::bad_input, capture.name + ": plane " + std::string(name), "is missing",
-                name == "specular" && pipeline_.light_program
+                name == "specular" && pipeline_.light_program.used()
                     ? "the light program reads what it holds; metallic and roughness may be planes of their own instead"
                     : "the lighting of the picture is judged from it");
   if (name == "specular" && view.channels < 4)
