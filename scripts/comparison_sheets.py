@@ -78,29 +78,26 @@ def read_png(path):
 
 
 def palette_of(colors, most):
-    """At most so many colours for a count of colours: median cut."""
-    boxes = [list(colors.items())]
-    while len(boxes) < most:
-        spans = []
-        for i, box in enumerate(boxes):
-            if len(box) > 1:
-                spread = [max(c[k] for c, _ in box) - min(c[k] for c, _ in box) for k in range(3)]
-                spans.append((max(spread) * sum(n for _, n in box) ** 0.5, i, spread.index(max(spread))))
-        if not spans:
-            break
-        _, i, axis = max(spans)
-        box = sorted(boxes[i], key=lambda entry: entry[0][axis])
-        half, count, cut = sum(n for _, n in box) / 2, 0, 1
-        for cut, (_, n) in enumerate(box, 1):
-            count += n
-            if count >= half:
-                break
-        cut = min(max(cut, 1), len(box) - 1)
-        boxes[i:i + 1] = [box[:cut], box[cut:]]
-    index, palette = {}, []
-    for box in boxes:
+    """At most so many colours for a count of colours: the box with the largest error is cut at its mean."""
+    def measured(box):
+        """The squared error of the box shown as its mean, in the channel that has most; the channel; the mean."""
         total = sum(n for _, n in box)
-        palette.append(tuple(round(sum(c[k] * n for c, n in box) / total) for k in range(3)))
+        mean = [sum(c[k] * n for c, n in box) / total for k in range(3)]
+        errors = [sum(n * (c[k] - mean[k]) ** 2 for c, n in box) for k in range(3)]
+        axis = errors.index(max(errors))
+        return errors[axis], axis, mean, box
+
+    boxes = [measured(list(colors.items()))]
+    while len(boxes) < most:
+        place = max(range(len(boxes)), key=lambda i: boxes[i][0])
+        error, axis, mean, box = boxes[place]
+        if error == 0:
+            break
+        boxes[place:place + 1] = [measured([entry for entry in box if (entry[0][axis] > mean[axis]) == above])
+                                  for above in (False, True)]
+    index, palette = {}, []
+    for _, _, mean, box in boxes:
+        palette.append(tuple(round(part) for part in mean))
         index.update((c, len(palette) - 1) for c, _ in box)
     return palette, index
 

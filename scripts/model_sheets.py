@@ -92,8 +92,9 @@ def main():
         with open(listed, "w") as file:
             json.dump(jobs, file)
         beside = os.path.join(os.path.dirname(os.path.abspath(__file__)), "blender_view.py")
-        subprocess.run(["blender", "--background", "--factory-startup", "--python", beside, "--", listed],
-                       stdout=subprocess.DEVNULL)
+        # Blender's own Python takes numpy from beside the first python3 on PATH, and the system's has it.
+        subprocess.run(["blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python", beside,
+                        "--", listed], env={**os.environ, "PATH": os.defpath}, stdout=subprocess.DEVNULL, check=True)
         sheet(cells, given.columns, given.sheet, scratch)
 
 
