@@ -17,7 +17,7 @@ namespace trueshade {
 namespace {
 
 constexpr uint64_t kMagic = 0x0a31686361435354;  // "TSCach1\n"
-constexpr uint32_t kFormat = 3;                  // of everything in the file, the tables too
+constexpr uint32_t kFormat = 4;                  // of everything in the file, the tables too
 constexpr size_t kAlignment = 64;
 
 struct Footer {
