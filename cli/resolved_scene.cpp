@@ -8,6 +8,8 @@
 #include "cli/notes.h"
 #include "raster/view.h"
 #include "scenes/files/content/faults.h"
+#include "scenes/light_fields.h"
+#include "scenes/material_fields.h"
 #include "scenes/pipeline/light_mesh.h"
 #include "shading/light/light_table.h"
 
@@ -19,6 +21,12 @@ std::string json_of_vector(const Vector& v) {
   std::array<float, size_t(Vector::length())> values;
   for (size_t i = 0; i < values.size(); ++i) values[i] = v[int(i)];
   return json_of_floats(values);
+}
+
+void put_numbers(JsonObject& json, std::string_view key, float value) { json.put_raw(key, json_of_float(value)); }
+template <typename Vector>
+void put_numbers(JsonObject& json, std::string_view key, const Vector& value) {
+  json.put_raw(key, json_of_vector(value));
 }
 
 /// Rows of a matrix, whose elements lie row after row.
@@ -163,13 +171,13 @@ std::string material_json(const Material& m) {
   JsonObject json, maps;
   const auto slots = maps_of(m);
   for (size_t i = 0; i < kMaterialMaps; ++i) maps.put_raw(map_name(i), map_json(*slots[i]));
-  json.put("name", m.name).put_raw("base_color", json_of_vector(m.base_color));
-  json.put_raw("specular_color", json_of_vector(m.specular_color)).put_raw("shininess", json_of_float(m.shininess));
-  json.put_raw("emission", json_of_vector(m.emission)).put_raw("metallic", json_of_float(m.metallic));
-  json.put_raw("roughness", json_of_float(m.roughness)).put_raw("normal_scale", json_of_float(m.normal_scale));
-  json.put_raw("occlusion_strength", json_of_float(m.occlusion_strength));
-  json.put_raw("alpha_cutoff", json_of_float(m.alpha_cutoff)).put("transparent", m.transparent);
-  json.put("unlit", m.unlit).put("double_sided", m.double_sided);
+  json.put("name", m.name);
+  visit_fields(m, [&]<typename T>(const MaterialField& row, const T& value) {
+    if constexpr (std::is_same_v<T, bool>)
+      json.put(row.member, value);
+    else
+      put_numbers(json, row.member, value);
+  });
   return json.put_raw("maps", maps.text()).text();
 }
 
@@ -204,12 +212,11 @@ std::string light_json(const Light& light, const LightRow& row, const Pipeline& 
                        ResolvedArrays& arrays) {
   const LightExtent extent = drawn_extent(light, pipeline.light_volumes);
   JsonObject json;
-  json.put("type", name_of(light.type)).put_raw("position", json_of_vector(light.position));
-  json.put_raw("direction", json_of_vector(light.direction)).put_raw("color", json_of_vector(light.color));
-  json.put_raw("range", json_of_float(light.range)).put_raw("attenuation", json_of_vector(light.attenuation));
-  json.put_raw("cone_rad", json_of_float(light.cone_rad)).put_raw("penumbra_rad", json_of_float(light.penumbra_rad));
-  json.put_raw("spot_exponent", json_of_float(light.spot_exponent)).put_raw("ambient", json_of_vector(light.ambient));
-  if (has_area(light.type)) json.put_raw("right", json_of_vector(light.right)).put_raw("up", json_of_vector(light.up));
+  json.put("type", name_of(light.type));
+  visit_members(light, [&](const LightField& field, const auto& value) {
+    if (field.hash == LightHash::area && !has_area(light.type)) return;
+    put_numbers(json, field.member, value);
+  });
   json.put_raw("in_model", light_in_model_json(row, pipeline.light_model)).put("extent", name_of(extent));
   if (pipeline.strategy != Strategy::deferred_volumes || !is_mesh(extent)) return json.text();
   std::vector<glm::vec3> vertices(meshes[extent].unit.size());

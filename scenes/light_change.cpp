@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/fp_env.h"
+#include "scenes/light_fields.h"
 
 namespace trueshade {
 namespace {

@@ -6,6 +6,8 @@
 #include "core/fp_env.h"
 #include "core/sha256.h"
 #include "core/threads/parallel_for.h"
+#include "scenes/light_fields.h"
+#include "scenes/material_fields.h"
 #include "scenes/scene.h"
 
 // Layout of the hashed bytes: every number little-endian, counts as 64-bit before what they count, floats by their bits
@@ -108,62 +110,63 @@ class SceneHasher {
     add(s.border);
   }
 
+  void add_fields(const Material& material, MaterialHash part) {
+    visit_fields(material, [&]<typename T>(const MaterialField& row, const T& value) {
+      if (row.hash != part) return;
+      if constexpr (std::is_same_v<T, bool>)
+        count(value);
+      else
+        add(value);
+    });
+  }
+
   void add_maps(const Material& material) {
     add(material.color_map);
     add(material.specular_map);
     add(material.normal_map);
-    add(material.normal_scale);
-    add(material.alpha_cutoff);
+    add_fields(material, MaterialHash::maps);
   }
 
   void add(const Light& light) {
     add(uint64_t(light.type));
-    add(light.position);
-    add(light.direction);
-    add(light.color);
-    add(light.range);
-    add(light.attenuation);
-    add(light.cone_rad);
-    add(light.penumbra_rad);
-    if (!has_area(light.type)) return;
-    add(light.right);
-    add(light.up);
+    add_members(light, LightHash::first);
+    if (has_area(light.type)) add_members(light, LightHash::area);
   }
 
-  /// What scenes of the first layout did not have: absent where it is the default, else behind its place.
-  void add_if_set(uint64_t place, const Light& light) {
-    if (light.ambient == glm::vec3(0.0f) && light.spot_exponent == 0.0f) return;
-    add(place);
-    add(light.ambient);
-    add(light.spot_exponent);
+  void add_members(const Light& light, LightHash part) {
+    visit_members(light, [&](const LightField& row, auto& value) {
+      if (row.hash == part) add(value);
+    });
   }
 
-  void add_if_set(uint64_t place, const Material& material) {
-    const Material absent;
-    if (material.specular_color == absent.specular_color && material.shininess == absent.shininess &&
-        material.emission == absent.emission && material.metallic == absent.metallic &&
-        material.roughness == absent.roughness)
-      return;
-    add(place);
-    add(material.specular_color);
-    add(material.shininess);
-    add(material.emission);
-    add(material.metallic);
-    add(material.roughness);
+  /// Members that scenes of the first layout did not have: absent where all of a part are their defaults, else behind
+  /// the part's mark.
+  void add_if_set(uint64_t mark, const Light& light, LightHash part) {
+    const Light absent;
+    bool is_set = false;
+    visit_members(light, [&]<typename T>(const LightField& row, const T& value) {
+      is_set = is_set || (row.hash == part && value != absent.*std::get<T Light::*>(row.at));
+    });
+    if (!is_set) return;
+    add(mark);
+    add_members(light, part);
+  }
+
+  void add_if_set(uint64_t mark, const Material& material, MaterialHash part) {
+    if (!has_other_than_default(material, part)) return;
+    add(mark);
+    add_fields(material, part);
   }
 
   /// What materials and meshes of the second layout did not have.
   void add_newer(uint64_t place, const Material& material) {
-    if (!material.metallic_roughness_map.used() && !material.emission_map.used() && !material.occlusion_map.used() &&
-        material.occlusion_strength == 1.0f && !material.unlit && !material.double_sided)
+    const std::array maps = {&material.metallic_roughness_map, &material.emission_map, &material.occlusion_map};
+    if (std::none_of(maps.begin(), maps.end(), [](const TextureSlot* map) { return map->used(); }) &&
+        !has_other_than_default(material, MaterialHash::newer))
       return;
     add(place);
-    add(material.metallic_roughness_map);
-    add(material.emission_map);
-    add(material.occlusion_map);
-    add(material.occlusion_strength);
-    count(material.unlit);
-    count(material.double_sided);
+    for (const TextureSlot* map : maps) add(*map);
+    add_fields(material, MaterialHash::newer);
   }
 
   void add_placed_maps(uint64_t place, const Material& material) {
@@ -252,7 +255,7 @@ std::string scene_hash(const Scene& scene) {
     for (const Mesh& mesh : scene.meshes) hasher.add(mesh);
   }
   hasher.count(scene.materials.size());
-  for (const Material& material : scene.materials) hasher.add(material.base_color);
+  for (const Material& material : scene.materials) hasher.add_fields(material, MaterialHash::first);
   hasher.count(scene.instances.size());
   for (const Instance& instance : scene.instances) {
     hasher.add(uint64_t(instance.mesh));
@@ -265,8 +268,9 @@ std::string scene_hash(const Scene& scene) {
   hasher.add(scene.clear);
   // No count is as large.
   constexpr uint64_t kMaterials = uint64_t(1) << 62, kLights = uint64_t(1) << 63, kTransparent = kLights | kMaterials;
-  for (size_t i = 0; i < scene.materials.size(); ++i) hasher.add_if_set(kMaterials + i, scene.materials[i]);
-  for (size_t i = 0; i < scene.lights.size(); ++i) hasher.add_if_set(kLights + i, scene.lights[i]);
+  for (size_t i = 0; i < scene.materials.size(); ++i)
+    hasher.add_if_set(kMaterials + i, scene.materials[i], MaterialHash::gloss);
+  for (size_t i = 0; i < scene.lights.size(); ++i) hasher.add_if_set(kLights + i, scene.lights[i], LightHash::second);
   for (size_t i = 0; i < scene.materials.size(); ++i) hasher.add_transparent(kTransparent + i, scene.materials[i]);
   constexpr uint64_t kNewer = kLights | uint64_t(1) << 61, kPlacedMaps = kMaterials | uint64_t(1) << 60,
                      kSecondUv = kTransparent | uint64_t(1) << 60, kNextUv = uint64_t(1) << 56;
@@ -277,6 +281,12 @@ std::string scene_hash(const Scene& scene) {
   constexpr uint64_t kMirrored = kLights | uint64_t(1) << 60;
   for (size_t i = 0; i < scene.instances.size(); ++i)
     if (scene.instances[i].mirrored) hasher.add(kMirrored + i);
+  constexpr uint64_t kLaterMaterials = kTransparent | uint64_t(1) << 61;
+  for (size_t i = 0; i < scene.materials.size(); ++i)
+    hasher.add_if_set(kLaterMaterials + i, scene.materials[i], MaterialHash::later);
+  constexpr uint64_t kLaterLights = kMirrored | uint64_t(1) << 61;
+  for (size_t i = 0; i < scene.lights.size(); ++i)
+    hasher.add_if_set(kLaterLights + i, scene.lights[i], LightHash::later);
   for (size_t i = 0; i < scene.meshes.size(); ++i) hasher.add_more_uv(kSecondUv + i, kNextUv, scene.meshes[i]);
   const bool unmapped = std::none_of(scene.materials.begin(), scene.materials.end(),
                                      [](const Material& m) { return m.textured() || m.masked(); });

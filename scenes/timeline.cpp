@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/fp_env.h"
 #include "scenes/hierarchy.h"
+#include "scenes/light_fields.h"
 #include "scenes/scene.h"
 #include "scenes/trig.h"
 
@@ -145,46 +146,14 @@ void aim(Light& light) {
 
 void set_property(Light& light, LightProperty property, const glm::dvec4& value) {
   const FpScope fp;
-  switch (property) {
-    case LightProperty::color:
-      light.color = glm::vec3(value);
-      break;
-    case LightProperty::intensity:
-      light.color = glm::vec3(glm::dvec3(light.color) * value.x);
-      break;
-    case LightProperty::ambient:
-      light.ambient = glm::vec3(value);
-      break;
-    case LightProperty::position:
-      light.position = glm::vec3(value);
-      break;
-    case LightProperty::direction:
-      light.direction = glm::vec3(value);
-      break;
-    case LightProperty::range:
-      light.range = float(value.x);
-      break;
-    case LightProperty::attenuation:
-      light.attenuation = glm::vec3(value);
-      break;
-    case LightProperty::cone:
-      light.cone_rad = float(value.x);
-      break;
-    case LightProperty::penumbra:
-      light.penumbra_rad = float(value.x);
-      break;
-    case LightProperty::spot_exponent:
-      light.spot_exponent = float(value.x);
-      break;
-    case LightProperty::radius:
-      (light.type == LightType::tube ? light.up.x : light.right.x) = float(value.x);
-      break;
-    case LightProperty::right:
-      light.right = glm::vec3(value);
-      break;
-    case LightProperty::up:
-      light.up = glm::vec3(value);
-      break;
+  if (property == LightProperty::intensity) {
+    light.color = glm::vec3(glm::dvec3(light.color) * value.x);
+  } else if (property == LightProperty::radius) {
+    (light.type == LightType::tube ? light.up.x : light.right.x) = float(value.x);
+  } else if (const auto* vector = std::get_if<glm::vec3 Light::*>(&row_of(property).at)) {
+    light.*(*vector) = glm::vec3(value);
+  } else {
+    light.*std::get<float Light::*>(row_of(property).at) = float(value.x);
   }
   const bool spans = property == LightProperty::right || property == LightProperty::up;
   if (spans && has_area(light.type) && row_of(light.type).is_aimed) aim(light);

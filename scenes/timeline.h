@@ -117,22 +117,7 @@ struct MaterialMotion {
   Track color;
 };
 
-/// Set in this order, so that an intensity multiplies the colour of its time.
-enum class LightProperty : uint8_t {
-  color,
-  intensity,
-  ambient,
-  position,
-  direction,
-  range,
-  attenuation,
-  cone,
-  penumbra,
-  spot_exponent,
-  radius,
-  right,
-  up
-};
+enum class LightProperty : uint8_t;  // scenes/light_fields.h
 
 /// A property of a light that changes.
 struct LightMotion {
@@ -159,7 +144,7 @@ struct CameraMotion {
 
 /// All that moves; empty for a scene that stands still.
 struct Timeline {
-  double fps = 24.0;  ///< frame n is at n / fps seconds
+  double fps = 24.0;                ///< frame n is at n / fps seconds
   std::optional<double> stands_at;  ///< seconds, of a scene that shows one moment of another, whatever the time
   std::vector<ObjectMotion> motions;
   std::vector<MovingInstance> instances;

@@ -6,6 +6,8 @@
 #include "core/error.h"
 #include "core/fp_env.h"
 #include "scenes/json/json_value.h"
+#include "scenes/light_fields.h"
+#include "scenes/material_fields.h"
 #include "scenes/scene.h"
 #include "scenes/trig.h"
 
@@ -33,6 +35,7 @@ bool all_within(std::span<const float> values, float most) {
   return std::all_of(values.begin(), values.end(), [most](float v) { return std::fabs(v) <= most; });  // false for NaN
 }
 
+bool within(float v, float least, float most) { return v >= least && v <= most; }
 bool within(const glm::vec3& v, float least, float most) {
   for (int k = 0; k < 3; ++k)
     if (!(v[k] >= least && v[k] <= most)) return false;
@@ -121,32 +124,42 @@ void check_share_map(const TextureSlot& slot, std::span<const float> largest, co
                "a texel of a metallic-roughness or occlusion map is over 1", "texels in [0, 1]");
 }
 
+std::string bounds_of(double least, double most) {
+  return "[" + json::number_text(least) + ", " + json::number_text(most) + "]";
+}
+
+/// A number, or each of several, against the bounds of its row.
+template <class Row, typename T>
+void check_field(const Row& row, const T& value, const Part& part) {
+  if (within(value, float(row.least), float(row.most))) return;
+  part.fail("'" + std::string(row.member) + "' is out of range",
+            (std::is_same_v<T, float> ? "in " : "each in ") + bounds_of(row.least, row.most));
+}
+void check_field(const MaterialField& row, const glm::vec4& value, const Part& part) {
+  if (!is_color(value))
+    part.fail("'" + std::string(row.member) + "' is out of range",
+              "RGB in " + bounds_of(row.least, row.most) + ", alpha in [0, 1]");
+}
+void check_field(const MaterialField&, bool, const Part&) {}
+void check_field(const MaterialField& row, float value, const Part& part) {
+  const bool is_right =
+      within(value, float(row.least), float(row.most)) && (!row.integer || value == std::nearbyint(value));
+  if (!is_right)
+    part.fail("'" + std::string(row.member) + "' is out of range",
+              (row.integer ? "an integer in " : "in ") + bounds_of(row.least, row.most));
+}
+
 void check_material(const Material& material, std::span<const float> largest, const Part& part) {
+  visit_fields(material, [&](const MaterialField& row, auto& value) { check_field(row, value, part); });
   const glm::vec4& base = material.base_color;
-  part.require(is_color(base), "the base colour is out of range", "RGB in [0, 1e18], alpha in [0, 1]");
-  part.require(within(material.specular_color, 0.0f, kMostReach), "the specular colour is out of range",
-               "each channel in [0, 1e18]");
-  part.require(material.shininess >= 0.0f && material.shininess <= 8192.0f &&
-                   material.shininess == std::nearbyint(material.shininess),
-               "the shininess is out of range", "an integer from 0 to 8192");
-  part.require(within(material.emission, 0.0f, kMostReach), "the emission is out of range",
-               "each channel in [0, 1e18]");
-  part.require(material.metallic >= 0.0f && material.metallic <= 1.0f, "metallic is out of range", "in [0, 1]");
-  part.require(material.roughness >= 0.0f && material.roughness <= 1.0f, "roughness is out of range", "in [0, 1]");
   const glm::vec3& specular = material.specular_color;
   check_map(material.color_map, largest, std::max({base.x, base.y, base.z}), part);
   check_map(material.specular_map, largest, std::max({specular.x, specular.y, specular.z}), part);
   check_map(material.normal_map, largest, 1.0f, part);
-  part.require(material.normal_scale >= -1000.0f && material.normal_scale <= 1000.0f,
-               "the normal map's scale is out of range", "in [-1000, 1000]");
   check_share_map(material.metallic_roughness_map, largest, part);
   const glm::vec3& emission = material.emission;
   check_map(material.emission_map, largest, std::max({emission.x, emission.y, emission.z}), part);
   check_share_map(material.occlusion_map, largest, part);
-  part.require(material.occlusion_strength >= 0.0f && material.occlusion_strength <= 1.0f,
-               "the occlusion map's strength is out of range", "in [0, 1]");
-  part.require(material.alpha_cutoff >= 0.0f && material.alpha_cutoff <= 1.0f, "the alpha cutoff is out of range",
-               "in [0, 1]");
 }
 
 bool is_unit(const glm::vec3& v) {
@@ -158,8 +171,6 @@ bool is_unit(const glm::vec3& v) {
 bool is_right_angle(double cosine) { return std::fabs(cosine) <= 1e-4; }
 
 void check_area(const Light& light, const Part& part) {
-  part.require(within(light.right, -kMostReach, kMostReach) && within(light.up, -kMostReach, kMostReach),
-               "the extents are not finite or over 1e18", "finite numbers");
   const glm::dvec3 right(light.right), up(light.up);
   if (light.type == LightType::sphere || light.type == LightType::tube) {
     part.require(light.type == LightType::sphere ? light.right.x > 0.0f : light.up.x > 0.0f,
@@ -179,25 +190,18 @@ void check_area(const Light& light, const Part& part) {
 }
 
 void check_light(const Light& light, const Part& part) {
-  part.require(within(light.color, 0.0f, kMostReach), "the colour is negative, over 1e18 or no number",
-               "each channel in [0, 1e18]");
-  if (light.type == LightType::ambient) return;
-  part.require(within(light.ambient, 0.0f, kMostReach), "the ambient colour is negative, over 1e18 or no number",
-               "each channel in [0, 1e18]");
+  visit_members(light, [&](const LightField& row, auto& value) {
+    const bool is_plain = row.kind == LightValueKind::number || row.kind == LightValueKind::three_numbers;
+    if (is_plain && row.least != kAboveZero) check_field(row, value, part);
+  });
   if (row_of(light.type).is_aimed)
     part.require(is_unit(light.direction), "the direction is not of unit length", "length 1");
   if (!is_placed(light.type)) return;
-  part.require(within(light.position, -kMostReach, kMostReach), "the position is not finite or over 1e18",
-               "finite numbers");
   part.require(light.range > 0.0f, "the range is not above 0", "above 0, or infinite");
-  part.require(within(light.attenuation, 0.0f, kMostReach), "the attenuation is negative, over 1e18 or no number",
-               "each in [0, 1e18]");
   if (has_area(light.type)) check_area(light, part);
   if (light.type != LightType::spot) return;
   part.require(light.cone_rad >= 0.0f && light.penumbra_rad >= 0.0f && light.cone_rad + light.penumbra_rad <= 3.1416f,
                "cone and penumbra are out of range", "each at least 0, their sum at most pi");
-  part.require(light.spot_exponent >= 0.0f && light.spot_exponent <= 8192.0f, "the spot exponent is out of range",
-               "in [0, 8192]");
 }
 
 /// `part`: a Part, or what fails and requires as one does.

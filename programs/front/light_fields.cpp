@@ -1,67 +1,58 @@
 #include "programs/front/light_fields.h"
 
-#include <array>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "programs/front/light_interface_text.h"
 
 namespace trueshade::programs {
 namespace {
 
-/// Fields of the interface. `shape`: the components of a vector, 0 for a scalar; `count`: of an array or of columns.
+/// A member of a struct of the interface. `shape`: the components of a vector, 0 for a scalar; `count`: of an array or
+/// of columns, 0 for neither.
 struct Field {
-  std::string_view name;
+  std::string name;  ///< light.user
   Type type = Type::f32;
   int shape = 0, count = 0;
 };
 
-constexpr Field kFields[] = {
-    {"surface.position", Type::f32, 3},
-    {"surface.normal", Type::f32, 3},
-    {"surface.albedo", Type::f32, 4},
-    {"surface.specular", Type::f32, 3},
-    {"surface.shininess"},
-    {"surface.metallic"},
-    {"surface.roughness"},
-    {"surface.occlusion"},
-    {"surface.emission", Type::f32, 3},
-    {"surface.uv", Type::f32, 2},
-    {"surface.uv1", Type::f32, 2},
-    {"surface.tangent", Type::f32, 4},
-    {"surface.object", Type::u32},
-    {"surface.material", Type::u32},
-    {"surface.pixel_x", Type::u32},
-    {"surface.pixel_y", Type::u32},
-    {"surface.user", Type::f32, 4, 4},
-    {"light.type", Type::u32},
-    {"light.index", Type::u32},
-    {"light.position", Type::f32, 3},
-    {"light.range"},
-    {"light.direction", Type::f32, 3},
-    {"light.color", Type::f32, 3},
-    {"light.attenuation", Type::f32, 3},
-    {"light.ambient", Type::f32, 3},
-    {"light.cone"},
-    {"light.penumbra"},
-    {"light.cos_inner"},
-    {"light.cos_outer"},
-    {"light.cone_scale"},
-    {"light.cone_offset"},
-    {"light.spot_exponent"},
-    {"light.penumbra_slope"},
-    {"light.cutoff_slope"},
-    {"light.right", Type::f32, 3},
-    {"light.up", Type::f32, 3},
-    {"light.shadow", Type::i32},
-    {"light.cookie", Type::i32},
-    {"light.user", Type::f32, 4, 4},
-    {"view.eye", Type::f32, 3},
-    {"view.axis", Type::f32, 3},
-    {"view.view", Type::f32, 4, 4},
-    {"view.projection", Type::f32, 4, 4},
-    {"view.view_projection", Type::f32, 4, 4},
-    {"view.size", Type::f32, 2},
-    {"view.time"},
-    {"view.frame", Type::u32},
-    {"sum", Type::f32, 3},
-};
+/// Of a type's name what a member of it has.
+Field of_type(std::string_view type) {
+  if (type == "int") return {{}, Type::i32};
+  if (type == "uint") return {{}, Type::u32};
+  if (type == "mat4") return {{}, Type::f32, 4, 4};
+  return {{}, Type::f32, type.starts_with("vec") ? type[3] - '0' : 0};
+}
+
+/// The members of the interface's structs, as its text declares them: "  vec2 uv, uv1;" or "  vec4 user[4];" a line, in
+/// "struct Light {", whose members are named `light.` here.
+std::vector<Field> interface_fields() {
+  std::vector<Field> fields{{"sum", Type::f32, 3}};
+  std::istringstream text(kLightInterface);
+  std::string prefix;
+  for (std::string line; std::getline(text, line);) {
+    std::istringstream words(line.substr(0, line.find("//")));
+    std::string word;
+    if (!(words >> word)) continue;
+    if (word == "struct" && words >> prefix) {
+      prefix[0] = char(prefix[0] - 'A' + 'a');
+      prefix += '.';
+    } else if (word == "};") {
+      prefix.clear();
+    } else if (!prefix.empty()) {
+      Field field = of_type(word);
+      for (std::string name; words >> name;) {
+        name.pop_back();  // the comma or the semicolon behind it
+        const size_t bracket = name.find('[');
+        if (bracket != std::string::npos) field.count = name[bracket + 1] - '0';
+        field.name = prefix + name.substr(0, bracket);
+        fields.push_back(field);
+      }
+    }
+  }
+  return fields;
+}
 
 /// Whether what follows a field's name is one of its scalars: "[2].w", ".x" or nothing.
 bool is_scalar_of(const Field& field, std::string_view rest) {
@@ -78,7 +69,8 @@ bool is_scalar_of(const Field& field, std::string_view rest) {
 }  // namespace
 
 std::optional<Type> type_of_field(std::string_view name) {
-  for (const Field& field : kFields)
+  static const std::vector<Field> fields = interface_fields();
+  for (const Field& field : fields)
     if (name.starts_with(field.name) && is_scalar_of(field, name.substr(field.name.size()))) return field.type;
   return std::nullopt;
 }

@@ -8,6 +8,7 @@
 #include "python/binding/python_scene.h"
 #include "scenes/add_normals.h"
 #include "scenes/camera_changes.h"
+#include "scenes/light_fields.h"
 #include "scenes/texture.h"
 #include "scenes/trig.h"
 

@@ -3,6 +3,7 @@
 #include "scenes/builtin/builtin_scenes.h"
 #include "scenes/builtin/pcg32.h"
 #include "scenes/builtin/texture_pattern.h"
+#include "scenes/light_fields.h"
 #include "scenes/shapes.h"
 #include "scenes/trig.h"
 

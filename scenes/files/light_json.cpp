@@ -7,57 +7,41 @@
 #include "scenes/files/content/scene_files.h"
 #include "scenes/files/light_buffers.h"
 #include "scenes/files/steps_json.h"
+#include "scenes/light_fields.h"
 #include "scenes/trig.h"
 
 namespace trueshade {
 namespace {
 
-constexpr std::string_view kAmbientKeys[] = {"type", "color", "intensity", "steps", "interpolation", "repeat"};
-constexpr std::string_view kDirectionalKeys[] = {"type",    "direction", "color",         "intensity",
-                                                 "ambient", "steps",     "interpolation", "repeat"};
-constexpr std::string_view kPointKeys[] = {"type",  "position",    "color", "intensity",     "ambient",
-                                           "range", "attenuation", "steps", "interpolation", "repeat"};
-constexpr std::string_view kSpotKeys[] = {"type",          "position", "direction",     "color",    "intensity",
-                                          "ambient",       "range",    "attenuation",   "cone_deg", "penumbra_deg",
-                                          "spot_exponent", "steps",    "interpolation", "repeat"};
-constexpr std::string_view kBallKeys[] = {"type",  "position", "radius",        "color", "intensity",
-                                          "range", "steps",    "interpolation", "repeat"};
-constexpr std::string_view kTubeKeys[] = {"type",      "position", "right", "radius",        "color",
-                                          "intensity", "range",    "steps", "interpolation", "repeat"};
-constexpr std::string_view kFlatKeys[] = {"type",  "position", "right",         "up",    "color", "intensity",
-                                          "range", "steps",    "interpolation", "repeat"};
-constexpr std::string_view kAmbientStepKeys[] = {"time", "color", "intensity"};
-constexpr std::string_view kDirectionalStepKeys[] = {"time", "direction", "color", "intensity", "ambient"};
-constexpr std::string_view kPointStepKeys[] = {"time",    "position", "color",      "intensity",
-                                               "ambient", "range",    "attenuation"};
-constexpr std::string_view kSpotStepKeys[] = {"time",      "position",     "direction",    "color",
-                                              "intensity", "ambient",      "range",        "attenuation",
-                                              "cone_deg",  "penumbra_deg", "spot_exponent"};
-constexpr std::string_view kBallStepKeys[] = {"time", "position", "radius", "color", "intensity", "range"};
-constexpr std::string_view kTubeStepKeys[] = {"time", "position", "right", "radius", "color", "intensity", "range"};
-constexpr std::string_view kFlatStepKeys[] = {"time", "position", "right", "up", "color", "intensity", "range"};
 constexpr std::string_view kRingKeys[] = {"type",  "count", "center",    "radius", "height",      "colors",
                                           "noise", "seed",  "intensity", "range",  "attenuation", "turn_s"};
 constexpr std::string_view kBoxKeys[] = {"type", "count",     "from",  "to",          "colors", "noise",
                                          "seed", "intensity", "range", "attenuation", "drift",  "drift_s"};
 constexpr std::string_view kBuffersKeys[] = {"type", "position", "color", "falloff", "intensity", "range"};
 
-/// A kind of light. `keys.object` is also the value of the key `type`.
-struct LightObject {
+/// The keys of lights of one type, and of their steps. The type's name is the value of the key `type`.
+struct LightKeys {
   LightType type;
-  json::ObjectKeys keys, step_keys;
+  std::string step_name;  ///< point_step
+  std::vector<std::string_view> keys{"type"}, step_keys{"time"};
+  explicit LightKeys(LightType t) : type(t), step_name(std::string(name_of(t)) + "_step") {
+    for (const LightField& field : kLightFields)
+      if (contains(field.types, t)) keys.push_back(field.key), step_keys.push_back(field.key);
+    keys.insert(keys.end(), {"steps", "interpolation", "repeat"});
+  }
+  json::ObjectKeys of_light() const { return {name_of(type), keys}; }
+  json::ObjectKeys of_step() const { return {step_name, step_keys}; }
 };
-constexpr LightObject kLightObjects[] = {
-    {LightType::ambient, {name_of(LightType::ambient), kAmbientKeys}, {"ambient_step", kAmbientStepKeys}},
-    {LightType::directional,
-     {name_of(LightType::directional), kDirectionalKeys},
-     {"directional_step", kDirectionalStepKeys}},
-    {LightType::point, {name_of(LightType::point), kPointKeys}, {"point_step", kPointStepKeys}},
-    {LightType::spot, {name_of(LightType::spot), kSpotKeys}, {"spot_step", kSpotStepKeys}},
-    {LightType::sphere, {name_of(LightType::sphere), kBallKeys}, {"sphere_step", kBallStepKeys}},
-    {LightType::tube, {name_of(LightType::tube), kTubeKeys}, {"tube_step", kTubeStepKeys}},
-    {LightType::rectangle, {name_of(LightType::rectangle), kFlatKeys}, {"rectangle_step", kFlatStepKeys}},
-    {LightType::disk, {name_of(LightType::disk), kFlatKeys}, {"disk_step", kFlatStepKeys}}};
+
+/// In the order of LightType.
+const std::vector<LightKeys>& light_keys() {
+  static const std::vector<LightKeys> all = [] {
+    std::vector<LightKeys> types;
+    for (size_t i = 0; i < std::size(kLightTypes); ++i) types.emplace_back(LightType(i));
+    return types;
+  }();
+  return all;
+}
 
 /// What stands for many lights, by the value of the key `type`.
 constexpr json::ObjectKeys kRing{"ring", kRingKeys}, kBox{"box", kBoxKeys}, kBuffers{"buffers", kBuffersKeys};
@@ -65,88 +49,66 @@ constexpr json::ObjectKeys kRing{"ring", kRingKeys}, kBox{"box", kBoxKeys}, kBuf
 std::optional<glm::dvec4> read_direction(const json::Node& object) {
   const auto node = object.find("direction");
   if (!node) return std::nullopt;
-  const glm::dvec3 d = unit(glm::dvec3(node->vec3(-1e9f, 1e9f)));
+  const LightField& field = row_of(LightProperty::direction);
+  const glm::dvec3 d = unit(glm::dvec3(node->vec3(float(field.least), float(field.most))));
   if (!(dot(d, d) > 0.5)) node->fail("the direction has no length", "a vector that is not 0");
   return glm::dvec4(d, 0.0);
 }
 
-enum class Kind : uint8_t { number, three_numbers, degrees };
-
-/// A value that lights have besides colour, intensity and direction.
-struct LightValue {
-  std::string_view key;
-  LightProperty property;
-  Kind kind;
-  double least, most;
-  bool required;  ///< in the lights that have the key
-};
-constexpr LightValue kValues[] = {
-    {"ambient", LightProperty::ambient, Kind::three_numbers, 0.0, json::kLargest, false},
-    {"position", LightProperty::position, Kind::three_numbers, -json::kLargest, json::kLargest, true},
-    {"range", LightProperty::range, Kind::number, json::kSmallest, json::kLargest, false},
-    {"attenuation", LightProperty::attenuation, Kind::three_numbers, 0.0, json::kLargest, false},
-    {"cone_deg", LightProperty::cone, Kind::degrees, 0.0, 180.0, true},
-    {"penumbra_deg", LightProperty::penumbra, Kind::degrees, 0.0, 180.0, false},
-    {"spot_exponent", LightProperty::spot_exponent, Kind::number, 0.0, 8192.0, false},
-    {"radius", LightProperty::radius, Kind::number, json::kSmallest, json::kLargest, true},
-    {"right", LightProperty::right, Kind::three_numbers, -json::kLargest, json::kLargest, true},
-    {"up", LightProperty::up, Kind::three_numbers, -json::kLargest, json::kLargest, true}};
-
-ValueReader reader_of(const LightValue& value) {
-  if (value.kind == Kind::degrees) return degrees(value.key, value.least, value.most);
-  return numbers(value.key, value.kind == Kind::number ? 1 : 3, value.least, value.most);
+ValueReader reader_of(const LightField& field) {
+  if (field.kind == LightValueKind::degrees) return degrees(field.key, field.least, field.most);
+  return numbers(field.key, field.kind == LightValueKind::number ? 1 : 3, field.least, field.most);
 }
 
 /// Reads the values of one light into it, and what moves of it into the timeline.
 class LightReader {
  public:
-  LightReader(const json::Node& node, const LightObject& object, Scene& scene)
+  LightReader(const json::Node& node, const LightKeys& keys, Scene& scene)
       : node_(node),
-        keys_(object.keys),
-        steps_(node, object.step_keys),
+        steps_(node, keys.of_step()),
         index_(uint32_t(scene.lights.size())),
         light_(scene.lights.emplace_back()),
         motions_(scene.timeline.lights) {
-    light_.type = object.type;
+    light_.type = keys.type;
   }
 
   void read() {
-    read_brightness();
-    if (has("direction"))
-      take("direction", LightProperty::direction, steps_.said_direction("direction", read_direction), true);
-    for (const LightValue& value : kValues)
-      if (has(value.key)) take(value.key, value.property, steps_.said(value.key, reader_of(value)), value.required);
+    for (const LightField& field : kLightFields)
+      if (contains(field.types, light_.type)) read(field);
     if (double(light_.cone_rad) + double(light_.penumbra_rad) > kPi + 1e-6)
       node_.fail("cone_deg and penumbra_deg together are over 180", "a sum of at most 180");
   }
 
  private:
-  bool has(std::string_view key) const {
-    return std::find(keys_.keys.begin(), keys_.keys.end(), key) != keys_.keys.end();
+  void read(const LightField& field) {
+    if (field.property == LightProperty::color) return read_brightness();
+    if (field.property == LightProperty::intensity) return;  // with the colour
+    take(field, field.kind == LightValueKind::unit_vector ? steps_.said_direction(field.key, read_direction)
+                                                          : steps_.said(field.key, reader_of(field)));
   }
 
-  void take(std::string_view key, LightProperty property, Said said, bool required) {
-    if (required && !said.at_all()) node_.member(key);  // fails
-    if (said.value) set_property(light_, property, *said.value);
-    if (said.track) motions_.push_back({index_, property, std::move(*said.track)});
+  void take(const LightField& field, Said said) {
+    if (field.required && !said.at_all()) node_.member(field.key);  // fails
+    if (said.value) set_property(light_, field.property, *said.value);
+    if (said.track) motions_.push_back({index_, field.property, std::move(*said.track)});
   }
 
   /// Colour and intensity move together or not at all, as one multiplies the other.
   void read_brightness() {
-    Said color = steps_.said("color", numbers("color", 3, 0.0, json::kLargest));
-    Said intensity = steps_.said("intensity", numbers("intensity", 1, 0.0, json::kLargest));
+    const LightField &of_color = row_of(LightProperty::color), &of_intensity = row_of(LightProperty::intensity);
+    Said color = steps_.said(of_color.key, reader_of(of_color));
+    Said intensity = steps_.said(of_intensity.key, reader_of(of_intensity));
     const bool moves = color.track || intensity.track;
     const auto standing = [moves](Said& said) {
       if (moves && !said.track) said = {{}, Track{{0.0}, {said.value.value_or(glm::dvec4(1.0))}}};
     };
     standing(color);
     standing(intensity);
-    take("color", LightProperty::color, std::move(color), false);
-    take("intensity", LightProperty::intensity, std::move(intensity), false);
+    take(of_color, std::move(color));
+    take(of_intensity, std::move(intensity));
   }
 
   const json::Node& node_;
-  const json::ObjectKeys& keys_;
   StepReader steps_;
   uint32_t index_;
   Light& light_;
@@ -290,7 +252,7 @@ void read_buffers(const json::Node& node, Scene& scene, BufferSource source) {
 void read_lights_of(const json::Node& node, Scene& scene, const std::string& path, const SceneLimits& limits,
                     const ImageDecoder& decode) {
   std::vector<std::string_view> types;
-  for (const LightObject& light : kLightObjects) types.push_back(light.keys.object);
+  for (const LightTypeRow& light : kLightTypes) types.push_back(light.name);
   types.insert(types.end(), {kRing.object, kBox.object, kBuffers.object});
   const std::string_view type = types[node.member("type").choice(types)];
   const auto is = [&](const json::ObjectKeys& keys) {
@@ -301,17 +263,17 @@ void read_lights_of(const json::Node& node, Scene& scene, const std::string& pat
   if (is(kRing)) return read_ring(node, scene, limits);
   if (is(kBox)) return read_box(node, scene, limits);
   if (is(kBuffers)) return read_buffers(node, scene, {path, decode, limits, limits.lights});
-  for (const LightObject& light : kLightObjects)
-    if (is(light.keys)) LightReader(node, light, scene).read();
+  for (const LightKeys& light : light_keys())
+    if (is(light.of_light())) LightReader(node, light, scene).read();
 }
 
 }  // namespace
 
 std::vector<json::ObjectKeys> light_json_keys() {
   std::vector<json::ObjectKeys> all;
-  for (const LightObject& light : kLightObjects) all.push_back(light.keys);
+  for (const LightKeys& light : light_keys()) all.push_back(light.of_light());
   all.insert(all.end(), {kRing, kBox, kBuffers});
-  for (const LightObject& light : kLightObjects) all.push_back(light.step_keys);
+  for (const LightKeys& light : light_keys()) all.push_back(light.of_step());
   return all;
 }
 

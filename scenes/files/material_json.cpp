@@ -59,6 +59,16 @@ TexturePattern read_pattern(const json::Node& node) {
   return p;
 }
 
+void read_value(const json::Node& node, const MaterialField&, bool& value) { value = node.boolean(); }
+void read_value(const json::Node& node, const MaterialField&, glm::vec4& value) { value = node.color(); }
+void read_value(const json::Node& node, const MaterialField& field, glm::vec3& value) {
+  value = node.vec3(float(field.least), float(field.most));
+}
+void read_value(const json::Node& node, const MaterialField& field, float& value) {
+  value = field.integer ? float(node.integer(int64_t(field.least), int64_t(field.most)))
+                        : node.real(field.least, field.most);
+}
+
 }  // namespace
 
 TextureLevel MaterialReader::read_level(const json::Node& file, bool upper_left, TextureFormat& format,
@@ -193,21 +203,12 @@ TextureSlot MaterialReader::read_map(const json::Node& node, UvSource& uv) const
 Material MaterialReader::read_material(const json::Node& node, UvSources& uv) const {
   node.check_keys(kMaterial);
   Material material{node.member("name").string(), glm::vec4(1.0f)};
-  if (const auto color = node.find("color")) material.base_color = color->color();
-  if (const auto color = node.find("specular_color")) material.specular_color = color->vec3(0.0f, 1e18);
-  if (const auto shininess = node.find("shininess")) material.shininess = float(shininess->integer(0, 8192));
-  if (const auto color = node.find("emission")) material.emission = color->vec3(0.0f, 1e18);
-  if (const auto metallic = node.find("metallic")) material.metallic = metallic->real(0.0, 1.0);
-  if (const auto roughness = node.find("roughness")) material.roughness = roughness->real(0.0, 1.0);
+  visit_fields(material, [&](const MaterialField& field, auto& value) {
+    if (const auto found = node.find(field.key)) read_value(*found, field, value);
+  });
   const auto maps = maps_of(material);
   for (size_t i = 0; i < maps.size(); ++i)
     if (const auto map = node.find(kMaterialMapKeys[i])) *maps[i] = read_map(*map, uv[i]);
-  if (const auto scale = node.find("normal_scale")) material.normal_scale = scale->real(-1000.0, 1000.0);
-  if (const auto cutoff = node.find("alpha_cutoff")) material.alpha_cutoff = cutoff->real(0.0, 1.0);
-  if (const auto transparent = node.find("transparent")) material.transparent = transparent->boolean();
-  if (const auto strength = node.find("occlusion_strength")) material.occlusion_strength = strength->real(0.0, 1.0);
-  if (const auto unlit = node.find("unlit")) material.unlit = unlit->boolean();
-  if (const auto both = node.find("double_sided")) material.double_sided = both->boolean();
   return material;
 }
 

@@ -7,6 +7,7 @@
 #include "scenes/files/content/faults.h"
 #include "scenes/files/content/scene_files.h"
 #include "scenes/json/json_value.h"
+#include "scenes/material_fields.h"
 #include "scenes/scene.h"
 
 namespace trueshade {
@@ -18,25 +19,13 @@ inline constexpr std::string_view kMapKeys[] = {"texture", "wrap",     "mag",   
                                                 "mip",     "lod_bias", "lod_min",   "lod_max",
                                                 "border",  "uv_set",   "uv_offset", "uv_rotation_deg",
                                                 "uv_scale"};
-inline constexpr std::string_view kMaterialKeys[] = {"name",
-                                                     "color",
-                                                     "specular_color",
-                                                     "shininess",
-                                                     "emission",
-                                                     "metallic",
-                                                     "roughness",
-                                                     "color_map",
-                                                     "specular_map",
-                                                     "normal_map",
-                                                     "normal_scale",
-                                                     "alpha_cutoff",
-                                                     "transparent",
-                                                     "metallic_roughness_map",
-                                                     "emission_map",
-                                                     "occlusion_map",
-                                                     "occlusion_strength",
-                                                     "unlit",
-                                                     "double_sided"};
+inline constexpr auto kMaterialKeys = [] {
+  std::array<std::string_view, 1 + std::size(kMaterialFields) + kMaterialMaps> keys{"name"};
+  auto key = keys.begin();
+  for (const MaterialField& field : kMaterialFields) *++key = field.key;
+  for (const std::string_view map : kMaterialMapKeys) *++key = map;
+  return keys;
+}();
 
 /// Reads a scene text's textures and materials into a scene. Borrows all it is given.
 class MaterialReader {

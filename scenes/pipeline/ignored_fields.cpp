@@ -32,7 +32,7 @@ struct Field {
   bool (*read)(const T&, const Pipeline&);
 };
 
-constexpr Field<Light> kLightFields[] = {
+constexpr Field<Light> kIgnorableOfLights[] = {
     {"cone_deg", "The light model has no cone, so spot lights shine in all directions, as point lights do",
      [](const Light& l) { return l.type == LightType::spot && l.cone_rad + l.penumbra_rad < float(kPi); },
      [](const Light&, const Pipeline& p) { return p.light_model.cone != Cone::none; }},
@@ -63,7 +63,7 @@ const Material& default_material() {
   return material;
 }
 
-constexpr Field<Material> kMaterialFields[] = {
+constexpr Field<Material> kIgnorableOfMaterials[] = {
     {"specular_color", kGlossReason,
      [](const Material& m) {
        return m.specular_color != default_material().specular_color && m.specular_color != glm::vec3(0.0f);
@@ -166,10 +166,10 @@ std::vector<IgnoredField> ignored_fields(const Scene& scene, const Pipeline& pip
   const FpScope fp;
   std::vector<IgnoredField> ignored;
   if (pipeline.view != ImageView::lit) return ignored;
-  append_ignored<Light>("light", kLightFields, scene.lights, pipeline, ignored);
+  append_ignored<Light>("light", kIgnorableOfLights, scene.lights, pipeline, ignored);
   if (has_lights_of_ours(scene))
     std::erase_if(ignored, [&](const IgnoredField& field) { return is_other_description(field, pipeline); });
-  append_ignored<Material>("material", kMaterialFields, scene.materials, pipeline, ignored);
+  append_ignored<Material>("material", kIgnorableOfMaterials, scene.materials, pipeline, ignored);
   append_needless_occlusion(scene, pipeline, ignored);
   append_maps_without_uv(scene, pipeline, ignored);
   return ignored;

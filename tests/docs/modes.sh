@@ -10,7 +10,7 @@ fail() {
 }
 comment=$(sed -n '2,/^set /p' check | grep '^#')
 unknown=$(grep -oE 'there is no mode .*' check)
-mapfile -t modes < <(sed -n '/^case \$mode in/,/^esac/p' check | grep -oE '^  [a-z][a-z0-9 |]*\)' | grep -oE '[a-z0-9]+')
+mapfile -t modes < <(sed -n '/^case \$mode in/,/^esac/p' check | grep -oE '^  [a-z][a-z0-9 |-]*\)' | grep -oE '[a-z0-9-]+')
 ((${#modes[@]} > 10)) || fail "check has no list of modes that this test can read"
 for mode in "${modes[@]}"; do
   [[ $mode != quick ]] || continue

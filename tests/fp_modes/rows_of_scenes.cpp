@@ -1,6 +1,7 @@
 // scenes/: what is read, moved, checked and hashed.
 #include "core/error.h"
 #include "scenes/builtin/builtin.h"
+#include "scenes/light_fields.h"
 #include "scenes/pipeline/pipeline.h"
 #include "tests/fp_modes/rows.h"
 #include "tests/scratch_folder.h"

@@ -6,9 +6,11 @@
 #include <map>
 
 #include "core/error.h"
+#include "judge/bounds/profile_file.h"
 #include "judge/stages/validate.h"
 #include "scenes/pipeline/transparency.h"
 #include "tests/catch.hpp"
+#include "tests/file_contents.h"
 
 namespace trueshade::testing {
 
@@ -38,7 +40,10 @@ std::string reason_of(const Verdict& v) {
 
 class FrameTrial {
  public:
-  explicit FrameTrial(const RandomFrames& asked) : asked_(asked), profile_(asked.profile) {}
+  explicit FrameTrial(const RandomFrames& asked) : asked_(asked), profile_(asked.profile) {
+    if (const char* const file = std::getenv("LEGAL_PROFILE"); file != nullptr && *file != '\0')
+      profile_ = profile_from_json(contents(file), file);
+  }
 
   void judge(uint64_t seed, const FrameDrawer& drawer) {
     const RandomFrame frame = random_frame(seed, asked_.theme);
@@ -67,9 +72,14 @@ class FrameTrial {
   void tell() const {
     int refused = 0;
     for (const auto& [why, count] : refused_) refused += count;
-    std::printf("random frames by %s, theme %d: %d, not drawn %d, alarms %d; %.2f %% of the lit pixels undefined\n",
-                asked_.drawer.c_str(), int(asked_.theme), asked_.count, refused, alarms_,
-                100 * double(undefined_) / double(std::max<uint64_t>(1, covered_)));
+    const auto share = [this](uint64_t pixels) {
+      return 100 * double(pixels) / double(std::max<uint64_t>(1, covered_));
+    };
+    std::printf(
+        "random frames by %s under %s, theme %d: %d, not drawn %d, alarms %d; of the lit pixels %.3f %% exact, "
+        "%.3f %% undefined\n",
+        asked_.drawer.c_str(), profile_.name.c_str(), int(asked_.theme), asked_.count, refused, alarms_, share(exact_),
+        share(undefined_));
     for (const auto& [why, count] : refused_) std::printf("  not drawn %d: %s\n", count, why.c_str());
     std::fflush(stdout);
     CHECK(alarms_ == 0);
@@ -91,7 +101,9 @@ class FrameTrial {
   void hold(uint64_t seed, const RandomFrame& frame, const DrawnFrame& drawn, const ValidateOptions& options) {
     const Verdict v = validate_capture(frame.scene, frame.pipeline, drawn.capture, options);
     for (const StageVerdict& stage : v.stages)
-      if (stage.stage == "lighting") covered_ += stage.covered, undefined_ += stage.count(PixelClass::undefined);
+      if (stage.stage == "lighting")
+        covered_ += stage.covered, undefined_ += stage.count(PixelClass::undefined),
+            exact_ += stage.count(PixelClass::exact);
     if (v.violations() == 0 && !v.convicted()) return;
     alarm(seed, frame, options.steps || options.objects ? "draw by draw" : "as a file", reason_of(v));
   }
@@ -107,7 +119,7 @@ class FrameTrial {
   Profile profile_;
   std::map<std::string, int> refused_;  ///< by what is in the way
   int alarms_ = 0;
-  uint64_t covered_ = 0, undefined_ = 0;  ///< pixels of the stage of the lights
+  uint64_t covered_ = 0, undefined_ = 0, exact_ = 0;  ///< pixels of the stage of the lights
 };
 
 }  // namespace

@@ -35,6 +35,8 @@ struct RandomFrames {
 /// shown, draw by draw. Each alarm is told by its seed.
 void check_random_frames(const RandomFrames& asked, const FrameDrawer& drawer);
 
+// A file of a profile, LEGAL_PROFILE of the environment, is what all frames are held to instead.
+
 /// How many frames the long tests judge: LEGAL_FRAMES of the environment, else `usual`.
 int long_count(int usual);
 /// Seed of the long tests' first frame: LEGAL_FIRST of the environment, else `usual`.

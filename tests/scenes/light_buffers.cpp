@@ -145,7 +145,7 @@ TEST_CASE("buffers that do not fit are refused at their place") {
       {R"({"type": "buffers", "position": "p.csv", "color": "png.exr"})",
        "s.json: /lights/0/color: png.exr: it is no EXR (a .csv table or an .exr)"},
       {R"({"type": "buffers", "position": "p.csv", "intensity": 1e18, "color": [[1, 1, 1], [2, 1, 1], [1, 1, 1]]})",
-       "s.json: light 1: the colour"},
+       "s.json: light 1: 'color' is out of range"},
   };
   for (const auto& [lights, start] : cases) {
     INFO(lights);

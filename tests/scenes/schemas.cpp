@@ -4,10 +4,12 @@
 
 #include "cli/batch/job.h"
 #include "expect_error.h"
+#include "scenes/files/scene_json.h"
 #include "scenes/json/json_value.h"
+#include "scenes/light_fields.h"
+#include "scenes/material_fields.h"
 #include "scenes/pipeline/pipeline_json.h"
 #include "scenes/pipeline/presets.h"
-#include "scenes/files/scene_json.h"
 #include "tests/catch.hpp"
 
 namespace trueshade {
@@ -49,6 +51,32 @@ TEST_CASE("readers and schemas list the same keys") {
   check_agreement("schemas/pipeline.schema.json", pipeline_object_keys());
   check_agreement("schemas/scene.schema.json", scene_object_keys());
   check_agreement("../cli/batch/jobs.schema.json", batch::job_object_keys());
+}
+
+/// The bounds that a schema states of a key are those of the field's row.
+void check_bounds(const json::Node& definition, std::string_view key, double least, double most) {
+  const json::Node properties = definition.member("properties");
+  const auto property = properties.find(key);
+  REQUIRE(property);
+  INFO(definition.pointer() << " " << key);
+  const auto items = property->find("items");
+  const json::Node& number = items ? *items : *property;
+  if (const auto minimum = number.find("minimum")) CHECK(minimum->number(-1e300, 1e300) == least);
+  if (const auto above = number.find("exclusiveMinimum"))
+    CHECK((above->number(-1e300, 1e300) == 0.0 && least == kAboveZero));
+  if (const auto maximum = number.find("maximum")) CHECK(maximum->number(-1e300, 1e300) == most);
+}
+
+TEST_CASE("the schema's bounds are those of the fields of lights and materials") {
+  const json::Value value = schema("schemas/scene.schema.json");
+  const json::Node root(value, "schema"), definitions = root.member("$defs");
+  for (const LightTypeRow& type : kLightTypes)
+    for (const LightField& field : kLightFields)
+      for (const char* suffix : {"", "_step"})
+        if (contains(field.types, LightType(&type - kLightTypes)))
+          check_bounds(definitions.member(std::string(type.name) + suffix), field.key, field.least, field.most);
+  for (const MaterialField& field : kMaterialFields)
+    check_bounds(definitions.member("material"), field.key, field.least, field.most);
 }
 
 /// Every key of every object has a description of its own: a sentence.

@@ -208,7 +208,7 @@ TEST_CASE("what only goes wrong later is refused at its time") {
   Scene bright = one_light(R"("type": "ambient", "steps": [{"time": 0, "color": [1, 1, 1], "intensity": 1},
                                                           {"time": 1, "color": [1e18, 0, 0], "intensity": 1e18}])");
   CHECK_STARTS_WITH(error_of(ErrorKind::bad_input, [&] { set_time(bright, 0.5); }),
-                    "s.json: time 0.5: light 0: the colour");
+                    "s.json: time 0.5: light 0: 'color' is out of range");
   Scene through = scene_of_text(
       R"({"version": 1, "camera": {"steps": [{"time": 0, "eye": [0, 0, 2]}, {"time": 2, "eye": [0, 0, -2]}]}})");
   CHECK_STARTS_WITH(error_of(ErrorKind::bad_input, [&] { set_time(through, 1.0); }),

@@ -7,6 +7,7 @@
 #include "scenes/builtin/pcg32.h"
 #include "scenes/files/gltf/glb.h"
 #include "scenes/files/scene_json.h"
+#include "scenes/light_fields.h"
 #include "scenes/trig.h"
 #include "tests/scratch_folder.h"
 

@@ -1,5 +1,7 @@
 #pragma once
 #include "scenes/files/gltf/extras/scene_extras.h"
+#include "scenes/light_fields.h"
+#include "scenes/material_fields.h"
 
 // The fields of what `extras.trueshade` holds: keys, values, and what an absent key stands for. `F` is FieldWriter or
 // FieldReader; a value is const for the first. So the reader takes just what the writer puts. Fields of geometry are
@@ -13,27 +15,20 @@ inline constexpr auto kLightTypeNames = [] {
 }();
 inline constexpr std::string_view kBetweenNames[] = {"linear", "step", "cubic", "slerp"};
 inline constexpr std::string_view kLevelsNames[] = {"one", "filtered", "stored"};
-/// In the order of LightProperty.
-inline constexpr std::string_view kLightPropertyNames[] = {
-    "color", "intensity", "ambient",       "position", "direction", "range", "attenuation",
-    "cone",  "penumbra",  "spot_exponent", "radius",   "right",     "up"};
-static_assert(std::size(kLightPropertyNames) == size_t(LightProperty::up) + 1);
+inline constexpr auto kLightPropertyNames = [] {
+  std::array<std::string_view, std::size(kLightFields)> names;
+  for (size_t i = 0; i < std::size(names); ++i) names[i] = kLightFields[i].name;
+  return names;
+}();
 inline constexpr std::string_view kCameraPropertyNames[] = {"eye", "target", "up", "fov_y", "fov_x"};
 
-inline constexpr auto kLightFields = [](auto& f, auto& light) {
+inline constexpr auto kLightExtras = [](auto& f, auto& light) {
   const Light absent;
   f.named("type", light.type, absent.type, kLightTypeNames);
-  f("position", light.position, absent.position);
-  f("direction", light.direction, absent.direction);
-  f("color", light.color, absent.color);
-  f("range", light.range, absent.range);
-  f("attenuation", light.attenuation, absent.attenuation);
-  f("cone_rad", light.cone_rad, absent.cone_rad);
-  f("penumbra_rad", light.penumbra_rad, absent.penumbra_rad);
-  f("ambient", light.ambient, absent.ambient);
-  f("spot_exponent", light.spot_exponent, absent.spot_exponent);
-  f("right", light.right, absent.right);
-  f("up", light.up, absent.up);
+  visit_members(light, [&](const LightField& row, auto& value) {
+    using Value = std::remove_cvref_t<decltype(value)>;
+    f(row.member, value, absent.*std::get<Value Light::*>(row.at));
+  });
 };
 
 inline constexpr auto kMapFields = [](auto& f, auto& map) {
@@ -51,22 +46,14 @@ inline constexpr auto kMapFields = [](auto& f, auto& map) {
   f("uv_set", map.uv_set, 0u);
 };
 
-inline constexpr auto kMaterialFields = [](auto& f, auto& extras) {
+inline constexpr auto kMaterialExtras = [](auto& f, auto& extras) {
   const Material absent;
   auto& m = extras.material;
   f("name", m.name, absent.name);
-  f("color", m.base_color, absent.base_color);
-  f("specular_color", m.specular_color, absent.specular_color);
-  f("shininess", m.shininess, absent.shininess);
-  f("emission", m.emission, absent.emission);
-  f("metallic", m.metallic, absent.metallic);
-  f("roughness", m.roughness, absent.roughness);
-  f("normal_scale", m.normal_scale, absent.normal_scale);
-  f("alpha_cutoff", m.alpha_cutoff, absent.alpha_cutoff);
-  f("transparent", m.transparent, absent.transparent);
-  f("occlusion_strength", m.occlusion_strength, absent.occlusion_strength);
-  f("unlit", m.unlit, absent.unlit);
-  f("double_sided", m.double_sided, absent.double_sided);
+  visit_fields(m, [&](const MaterialField& row, auto& value) {
+    using Value = std::remove_cvref_t<decltype(value)>;
+    f(row.key, value, absent.*std::get<Value Material::*>(row.at));
+  });
   f.optional("color_map", extras.color_map, kMapFields);
   f.optional("specular_map", extras.specular_map, kMapFields);
   f.optional("normal_map", extras.normal_map, kMapFields);
@@ -192,8 +179,8 @@ inline constexpr auto kSceneFields = [](auto& f, auto& extras) {
   f("camera_of_ours", extras.scene.camera_of_ours, false);
   f("ground_of_ours", extras.scene.ground_of_ours, false);
   f.object("camera", extras.scene.camera, kCameraFields);
-  f.list("lights", extras.scene.lights, kLightFields);
-  f.list("materials", extras.materials, kMaterialFields);
+  f.list("lights", extras.scene.lights, kLightExtras);
+  f.list("materials", extras.materials, kMaterialExtras);
   f.list("textures", extras.textures, kTextureFields);
   f("mesh_count", extras.mesh_count, 0u);
   f("meshes", extras.meshes, std::vector<uint32_t>());
