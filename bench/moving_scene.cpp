@@ -48,7 +48,7 @@ void MovingScene::move_to(int step) {
     const Light& home = lights_[i];
     if (is_placed(home.type))
       scene_.lights[i].position = glm::vec3(glm::dvec3(home.position) + 0.02 * radius_ * towards);
-    if (home.type == LightType::directional)
+    if (is_directional(home.type))
       scene_.lights[i].direction = glm::vec3(unit(glm::dvec3(home.direction) + 0.05 * towards));
   }
   scene_.camera = camera_;

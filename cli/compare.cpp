@@ -85,6 +85,10 @@ FolderComparison as_row(const CompareOptions& options, const ComparedPictures& p
   return {options.reference, options.test, {row}, {}, {}};
 }
 
+void write_junit(const std::string& file, const FolderComparison& folders) {
+  write_text(file, junit_xml("trueshade compare", folders.reference, junit_cases(folders)));
+}
+
 bool accepted(const CompareOptions& options, const PictureFile& test) {
   const std::string refusal = why_not_acceptable(test, options.rules.allow_not_finite);
   if (!refusal.empty())
@@ -115,7 +119,7 @@ int compare_two_pictures(const CompareOptions& options) {
       write_differences(pictures, path);
   }
   pictures.is_accepted = options.accept && !passes(pictures) && accepted(options, pictures.test);
-  if (options.junit) write_text(*options.junit, junit_xml(as_row(options, pictures)));
+  if (options.junit) write_junit(*options.junit, as_row(options, pictures));
   print(options.json ? comparison_json(pictures) + '\n' : shown_report(comparison_text(pictures)));
   for (const std::string& path : options.outputs) {
     const std::string why = is_page(path) ? "" : why_no_differences(pictures, path);
@@ -160,7 +164,7 @@ int compare_two_folders(CompareOptions options) {
     make_folder_of(gallery);  // from which its links begin
     write_text(gallery, gallery_page(folders, options, gallery));
   }
-  if (options.junit) write_text(*options.junit, junit_xml(folders));
+  if (options.junit) write_junit(*options.junit, folders);
   print(options.json ? rows_json(folders) : shown_report(rows_text(folders)));
   for (const std::string& gallery : galleries) say_written(gallery, "HTML report", answers(options));
   if (options.junit) say_written(*options.junit, "JUnit", answers(options));

@@ -18,20 +18,30 @@ std::string attribute(const char* name, std::string_view value) {
   return std::string(" ") + name + "=\"" + xml_text(value) + '"';
 }
 
-/// What a reader of the report sees beneath the message.
-std::string body(const PictureRow& row) {
-  std::string text = row.details.empty() ? row.reason : row.details;
-  if (!row.not_accepted.empty()) text += "; not accepted: " + row.not_accepted;
-  return xml_text(text, Lines::several);
+constexpr std::string_view kOutcomeNames[] = {"", "failure", "error", "skipped"};
+
+std::string attributes_of(std::span<const JUnitCase> cases) {
+  size_t count[std::size(kOutcomeNames)] = {};
+  double seconds = 0.0;
+  for (const JUnitCase& one : cases) ++count[size_t(one.outcome)], seconds += one.seconds;
+  std::string text = attribute("tests", std::to_string(cases.size())) +
+                     attribute("failures", std::to_string(count[size_t(JUnitOutcome::failure)]));
+  if (const size_t skipped = count[size_t(JUnitOutcome::skipped)]; skipped > 0)
+    text += attribute("skipped", std::to_string(skipped));
+  return text + attribute("errors", std::to_string(count[size_t(JUnitOutcome::error)])) +
+         attribute("time", seconds_text(seconds));
 }
 
-std::string testcase(const FolderComparison& folders, const PictureRow& row) {
-  std::string xml = "    <testcase" + attribute("classname", folders.reference) + attribute("name", row.name) +
-                    attribute("time", seconds_text(row.seconds));
-  if (passes(row)) return xml + "/>\n";
-  const std::string element = row.state == RowState::unreadable ? "error" : "failure";
-  return xml + ">\n      <" + element + attribute("type", name_of(row.state)) + attribute("message", row.reason) + ">" +
-         body(row) + "</" + element + ">\n    </testcase>\n";
+std::string testcase(const std::string& checked, const JUnitCase& one) {
+  const std::string xml = "    <testcase" + attribute("classname", checked) + attribute("name", one.name) +
+                          attribute("time", seconds_text(one.seconds));
+  if (one.outcome == JUnitOutcome::passed) return xml + "/>\n";
+  const std::string element(kOutcomeNames[size_t(one.outcome)]);
+  const std::string opened = xml + ">\n      <" + element +
+                             (one.type.empty() ? std::string() : attribute("type", one.type)) +
+                             attribute("message", one.message);
+  if (one.body.empty()) return opened + "/>\n    </testcase>\n";
+  return opened + ">" + xml_text(one.body, Lines::several) + "</" + element + ">\n    </testcase>\n";
 }
 
 }  // namespace
@@ -55,33 +65,32 @@ std::string xml_text(std::string_view text, Lines lines) {
   return xml;
 }
 
-std::string junit_xml(const FolderComparison& folders) {
-  double seconds = 0.0;
-  size_t errors = 0;
-  for (const PictureRow& row : folders.rows) {
-    seconds += row.seconds;
-    errors += !passes(row) && row.state == RowState::unreadable ? 1 : 0;
-  }
-  const std::string figures = attribute("tests", std::to_string(folders.rows.size())) +
-                              attribute("failures", std::to_string(folders.failures() - errors)) +
-                              attribute("errors", std::to_string(errors)) + attribute("time", seconds_text(seconds));
-  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" + attribute("name", "trueshade compare") +
-                    figures + ">\n  <testsuite" + attribute("name", folders.reference) + figures + ">\n";
-  for (const PictureRow& row : folders.rows) xml += testcase(folders, row);
+std::string junit_xml(const std::string& command, const std::string& checked, std::span<const JUnitCase> cases) {
+  const std::string figures = attributes_of(cases);
+  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" + attribute("name", command) + figures +
+                    ">\n  <testsuite" + attribute("name", checked) + figures + ">\n";
+  for (const JUnitCase& one : cases) xml += testcase(checked, one);
   return xml + "  </testsuite>\n</testsuites>\n";
+}
+
+std::vector<JUnitCase> junit_cases(const FolderComparison& folders) {
+  std::vector<JUnitCase> cases;
+  for (const PictureRow& row : folders.rows) {
+    const JUnitOutcome outcome = passes(row)                         ? JUnitOutcome::passed
+                                 : row.state == RowState::unreadable ? JUnitOutcome::error
+                                                                     : JUnitOutcome::failure;
+    std::string body = row.details.empty() ? row.reason : row.details;
+    if (!row.not_accepted.empty()) body += "; not accepted: " + row.not_accepted;
+    cases.push_back({row.name, row.seconds, outcome, std::string(name_of(row.state)), row.reason, std::move(body)});
+  }
+  return cases;
 }
 
 void report_error(const std::string& report, const std::string& command, const std::string& checked,
                   const Error& error) {
-  const std::string figures =
-      attribute("tests", "1") + attribute("failures", "0") + attribute("errors", "1") + attribute("time", "0");
-  const std::string reason = error.what();
+  const JUnitCase ended{checked, 0.0, JUnitOutcome::error, "ended", error.what(), error.what()};
   try {
-    write_text(report, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" + attribute("name", command) +
-                           figures + ">\n  <testsuite" + attribute("name", checked) + figures + ">\n    <testcase" +
-                           attribute("classname", command) + attribute("name", checked) + ">\n      <error" +
-                           attribute("type", "ended") + attribute("message", reason) + ">" + xml_text(reason) +
-                           "</error>\n    </testcase>\n  </testsuite>\n</testsuites>\n");
+    write_text(report, junit_xml(command, checked, {&ended, 1}));
   } catch (const Error&) {
   }
 }

@@ -47,8 +47,8 @@ bool in_reach(const LightRow& light, const SurfacePlanes& surface, LightAtPixel&
 }
 
 LightFate fate_without_light(const Light& light, const SurfacePlanes& surface) {
-  if (light.type == LightType::ambient) return LightFate::gives_nothing;
-  const bool directional = light.type == LightType::directional;
+  if (is_ambient(light.type)) return LightFate::gives_nothing;
+  const bool directional = is_directional(light.type);
   Vector d, axis;
   for (int k = 0; k < 3; ++k) {
     axis[size_t(k)] = -light.direction[k];
@@ -58,7 +58,7 @@ LightFate fate_without_light(const Light& light, const SurfacePlanes& surface) {
   const bool is_flat = has_area(light.type) && row_of(light.type).is_aimed;
   if (is_flat && !(dot(d, axis.data()) > 0.0f)) return LightFate::behind_light;
   const bool outside = dot(d, axis.data()) <= LightCone(light).cos_outer * std::sqrt(dot(d, d.data()));
-  return light.type == LightType::spot && outside ? LightFate::outside_cone : LightFate::gives_nothing;
+  return is_spot(light.type) && outside ? LightFate::outside_cone : LightFate::gives_nothing;
 }
 
 float strength(const LightAtPixel& light) {

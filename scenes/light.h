@@ -44,6 +44,10 @@ constexpr bool is_placed(LightType type) { return row_of(type).reach != LightRea
 /// Whether light leaves a surface, which `right` and `up` of the light span.
 constexpr bool has_area(LightType type) { return row_of(type).has_area; }
 
+constexpr bool is_ambient(LightType type) { return type == LightType::ambient; }
+constexpr bool is_directional(LightType type) { return type == LightType::directional; }
+constexpr bool is_spot(LightType type) { return type == LightType::spot; }
+
 /// One light in world space. A light model reads the fields it names and no others.
 struct Light {
   LightType type = LightType::point;
@@ -63,5 +67,13 @@ struct Light {
   //                    cross(up, right) alone, whose unit vector `direction` is
   glm::vec3 right{0.0f}, up{0.0f};
 };
+
+/// Light of this colour that reaches every surface alike, whichever way it faces.
+inline Light ambient_light(const glm::vec3& color) {
+  Light light;
+  light.type = LightType::ambient;
+  light.color = color;
+  return light;
+}
 
 }  // namespace trueshade

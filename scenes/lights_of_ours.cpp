@@ -148,8 +148,8 @@ double mean_reflectance(const Scene& scene) {
 
 double spread_light(const Light& lamp) {
   const FpScope fp;
-  if (lamp.type == LightType::directional) return kPhotometricShare * (1.0 + kFalloffThere);
-  if (lamp.type == LightType::ambient || !(lamp.attenuation.z > 0.0f)) return 1.0;
+  if (is_directional(lamp.type)) return kPhotometricShare * (1.0 + kFalloffThere);
+  if (is_ambient(lamp.type) || !(lamp.attenuation.z > 0.0f)) return 1.0;
   return photometric_intensity(kFalloffThere / double(lamp.attenuation.z));
 }
 
@@ -159,10 +159,7 @@ void add_lights_of_ours(Scene& scene) {
   const Bounds bounds = bounds_of(scene);
   const double gain = gain_of(scene);
   for (const Lamp& lamp : kLamps) add_lamp(scene, bounds, lamp.from, lamp.color * gain);
-  Light ambient;
-  ambient.type = LightType::ambient;
-  ambient.color = glm::vec3(kSoftLight * gain);
-  scene.lights.push_back(ambient);
+  scene.lights.push_back(ambient_light(glm::vec3(kSoftLight * gain)));
   scene.clear = {0.02f, 0.02f, 0.03f, 1.0f};
   scene.lights_of_ours = true;
 }
@@ -191,8 +188,8 @@ void turn_lamps(Scene& scene, const glm::dvec2& turn) {
 void place_lamps(Scene& scene, std::span<const LampPlace> places) {
   for (size_t i = 0; i < places.size(); ++i) {
     Light& lamp = scene.lights[scene.lights.size() - kLightsOfOurs + i];
-    (lamp.type == LightType::directional ? lamp.direction : lamp.position) =
-        lamp.type == LightType::directional ? places[i].direction : places[i].position;
+    (is_directional(lamp.type) ? lamp.direction : lamp.position) =
+        is_directional(lamp.type) ? places[i].direction : places[i].position;
   }
 }
 

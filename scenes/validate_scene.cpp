@@ -199,7 +199,7 @@ void check_light(const Light& light, const Part& part) {
   if (!is_placed(light.type)) return;
   part.require(light.range > 0.0f, "the range is not above 0", "above 0, or infinite");
   if (has_area(light.type)) check_area(light, part);
-  if (light.type != LightType::spot) return;
+  if (!is_spot(light.type)) return;
   part.require(light.cone_rad >= 0.0f && light.penumbra_rad >= 0.0f && light.cone_rad + light.penumbra_rad <= 3.1416f,
                "cone and penumbra are out of range", "each at least 0, their sum at most pi");
 }

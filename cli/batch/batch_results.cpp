@@ -67,18 +67,11 @@ std::string json_of_job(const Job& job, const JobResult& result) {
       .text();
 }
 
-std::string attribute_of(const char* name, std::string_view value) {
-  return std::string(" ") + name + "=\"" + xml_text(value) + '"';
-}
-
-std::string testcase_of(const JobList& list, const Job& job, const JobResult& result) {
-  const std::string xml = "    <testcase" + attribute_of("classname", list.file) + attribute_of("name", job.name) +
-                          attribute_of("time", seconds_text(result.seconds, "%.3f"));
-  if (result.passed()) return xml + "/>\n";
+JUnitCase junit_case(const Job& job, const JobResult& result) {
+  if (result.passed()) return {job.name, result.seconds, JUnitOutcome::passed, {}, {}, {}};
   if (result.state == JobState::skipped)
-    return xml + ">\n      <skipped" + attribute_of("message", result.reason) + "/>\n    </testcase>\n";
-  return xml + ">\n      <failure" + attribute_of("type", "failed") + attribute_of("message", result.reason) + ">" +
-         xml_text(result.out + result.err, Lines::several) + "</failure>\n    </testcase>\n";
+    return {job.name, result.seconds, JUnitOutcome::skipped, {}, result.reason, {}};
+  return {job.name, result.seconds, JUnitOutcome::failure, "failed", result.reason, result.out + result.err};
 }
 
 }  // namespace
@@ -134,16 +127,10 @@ std::string results_json(const BatchResults& batch) {
 }
 
 std::string results_junit(const BatchResults& batch) {
-  const std::string figures = attribute_of("tests", std::to_string(batch.count())) +
-                              attribute_of("failures", std::to_string(batch.count(JobState::failed))) +
-                              attribute_of("skipped", std::to_string(batch.count(JobState::skipped))) +
-                              attribute_of("errors", "0") + attribute_of("time", seconds_text(batch.seconds, "%.3f"));
-  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" +
-                    attribute_of("name", "trueshade batch") + figures + ">\n  <testsuite" +
-                    attribute_of("name", batch.list.file) + figures + ">\n";
+  std::vector<JUnitCase> cases;
   for (size_t i = 0; i < batch.results.size(); ++i)
-    if (batch.chosen[i]) xml += testcase_of(batch.list, batch.list.jobs[i], batch.results[i]);
-  return xml + "  </testsuite>\n</testsuites>\n";
+    if (batch.chosen[i]) cases.push_back(junit_case(batch.list.jobs[i], batch.results[i]));
+  return junit_xml("trueshade batch", batch.list.file, cases);
 }
 
 }  // namespace trueshade::batch

@@ -45,7 +45,7 @@ class CompatibilityScope {
 };
 
 void set_light(GLenum name, const Light& light) {
-  const bool directional = light.type == LightType::directional;
+  const bool directional = is_directional(light.type);
   const glm::vec3 place = directional ? -light.direction : light.position;
   const float position[] = {place.x, place.y, place.z, directional ? 0.0f : 1.0f};
   const float color[] = {light.color.r, light.color.g, light.color.b, 1};
@@ -59,7 +59,7 @@ void set_light(GLenum name, const Light& light) {
   glLightf(name, GL_CONSTANT_ATTENUATION, light.attenuation.x);
   glLightf(name, GL_LINEAR_ATTENUATION, light.attenuation.y);
   glLightf(name, GL_QUADRATIC_ATTENUATION, light.attenuation.z);
-  if (light.type != LightType::spot) return;
+  if (!is_spot(light.type)) return;
   const double degrees = (double(light.cone_rad) + double(light.penumbra_rad)) * 180 / 3.14159265358979323846;
   glLightfv(name, GL_SPOT_DIRECTION, direction);
   glLightf(name, GL_SPOT_EXPONENT, light.spot_exponent);

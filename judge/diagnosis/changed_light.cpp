@@ -163,7 +163,7 @@ Color LightFit::afterwards(const Seen& seen, Color v) const {
 /// A small change of one of the fault's numbers: 1e-3, or for a position a thousandth of the way from the light to the
 /// nearest surface.
 double LightFit::size_of(size_t light) const {
-  if (fault_.start != 0 || supposed_.pass.lights[light].type == LightType::directional) return 1e-3;
+  if (fault_.start != 0 || is_directional(supposed_.pass.lights[light].type)) return 1e-3;
   double nearest = HUGE_VAL;
   for (const Seen& s : seen_) {
     const Triple3 offset = minus(triple(supposed_.pass.lights[light].position), s.surface.position);

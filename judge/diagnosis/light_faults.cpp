@@ -36,7 +36,7 @@ bool goes_by_distance(const LightPass& p) {
 }
 bool has_cones(const LightPass& p) {
   return p.pipeline.light_model.cone != Cone::none &&
-         std::any_of(p.lights.begin(), p.lights.end(), [](const Light& l) { return l.type == LightType::spot; });
+         std::any_of(p.lights.begin(), p.lights.end(), [](const Light& l) { return is_spot(l.type); });
 }
 bool order_matters(const LightPass& p) {
   return p.lights.size() > 1 && info(p.pipeline.target).number_class == NumberClass::floating;
@@ -91,7 +91,7 @@ void scale_ambient(LightPass& p, double f) {
   p.pipeline.light_model.global_ambient *= float(f);
   for (Light& l : p.lights) {
     l.ambient *= float(f);
-    if (l.type == LightType::ambient) l.color *= float(f);
+    if (is_ambient(l.type)) l.color *= float(f);
   }
 }
 void no_emission(LightPass& p, double) { p.pipeline.light_model.emission = false; }
@@ -205,12 +205,12 @@ void scale_cone(Light& l, const Vector& v) { l.cone_rad *= float(v[0]), l.penumb
 void scale_exponent(Light& l, const Vector& v) { l.spot_exponent *= float(v[0]); }
 void scale_falloff(Light& l, const Vector& v) { l.attenuation *= glm::vec3(1.0f, float(v[0]), float(v[1])); }
 bool reaches(const Light& l) { return lamp(l) && std::isfinite(l.range); }
-bool spot(const Light& l) { return l.type == LightType::spot; }
+bool spot(const Light& l) { return is_spot(l.type); }
 bool any_light(const Light&) { return true; }
 bool has_directions(const LightPass& p) { return std::any_of(p.lights.begin(), p.lights.end(), has_direction); }
 
 bool has_ambient(const LightPass& p) {
-  const auto ambient = [](const Light& l) { return l.type == LightType::ambient; };
+  const auto ambient = [](const Light& l) { return is_ambient(l.type); };
   return std::any_of(p.lights.begin(), p.lights.end(), ambient) ||
          p.pipeline.light_model.global_ambient != glm::vec3(0.0f) ||
          p.pipeline.light_model.order == TermOrder::with_ambient;

@@ -72,7 +72,7 @@ void each_light(const LightPass& pass, const PlainSurface& surface, const Predic
     if (fragments == 0) continue;
     if (fault.most_at_pixel < count) {
       if (!maker.in_range(surface, light)) continue;
-      if (light.type != LightType::ambient && ++reached > fault.most_at_pixel) continue;
+      if (!is_ambient(light.type) && ++reached > fault.most_at_pixel) continue;
     }
     draw(uint32_t(i), light, int64_t(i) == fault.twice ? 2 * fragments : fragments);
   }

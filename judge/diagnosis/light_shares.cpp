@@ -40,8 +40,8 @@ void LightShares::add(int x, int y) {
 Share LightShares::share(const SharedPixel& pixel, const LightAdded& added) const {
   const Light& light = scene_.lights[added.light];
   Share s{added.light, added.term};
-  if (light.type == LightType::ambient) return s;
-  const bool is_placed = light.type != LightType::directional;
+  if (is_ambient(light.type)) return s;
+  const bool is_placed = !is_directional(light.type);
   const Triple3 way =
       is_placed ? minus(triple(light.position), pixel.surface.position) : times(triple(light.direction), -1);
   if (is_placed) s.d = std::sqrt(inner(way, way)), s.part = s.d / double(light.range);

@@ -173,7 +173,7 @@ Triple3 PredictedTerms::term_of_program(const Light& given) const {
   for (int k = 0; k < 3; ++k) light.position[k] = float(place[size_t(k)]);
   light.color *= float(fault.intensity), light.range *= float(fault.range);
   if (fault.swapped_colors) std::swap(light.color.x, light.color.z);
-  if (fault.no_ambient && light.type == LightType::ambient) return {};
+  if (fault.no_ambient && is_ambient(light.type)) return {};
   const bool is_of_pass = &given >= pass_.lights.data() && &given < pass_.lights.data() + pass_.lights.size();
   return pass_.program->term(light, is_of_pass ? uint32_t(&given - pass_.lights.data()) : 0, values_);
 }
@@ -184,20 +184,20 @@ Triple3 PredictedTerms::term(const PlainSurface& surface, const Light& light) co
   const bool last = model_.order == TermOrder::albedo_last;
   Triple3 color = times(triple(light.color), double(model_.damping) * fault.intensity), out{};
   if (fault.swapped_colors) std::swap(color[0], color[2]);
-  if (light.type == LightType::ambient) {
+  if (is_ambient(light.type)) {
     for (size_t k = 0; k < 3 && !fault.no_ambient; ++k)
       out[k] = (last ? 1 : surface.albedo[k]) * color[k] * (model_.emission ? surface.ambient_share : 1);
     return out;
   }
   Triple3 l = times(triple(light.direction), -1);
   double strength = 1;
-  if (light.type != LightType::directional) {
+  if (!is_directional(light.type)) {
     const Triple3 offset = minus(place_of(light), surface.position);
     const double squared = inner(offset, offset), d = std::sqrt(squared);
     l = times(offset, root_of(squared, fault.root));
     strength = falloff(light, fault.root == LightFault::Root::right ? d : squared * root_of(squared, fault.root));
     if (strength == 0) return out;
-    if (light.type == LightType::spot) strength *= cone(light, -inner(l, triple(light.direction)));
+    if (is_spot(light.type)) strength *= cone(light, -inner(l, triple(light.direction)));
     if (!(strength != 0)) return out;
   }
   const double n_l = inner(normal_, l);

@@ -131,9 +131,7 @@ Scene scaled_squares(Pcg32& random) {
 
 /// White ambient light and nothing else: the target is the albedo as it is read back.
 Scene in_ambient_light(Scene scene) {
-  scene.lights.resize(1);
-  scene.lights[0].type = LightType::ambient;
-  scene.lights[0].color = glm::vec3(1.0f);
+  scene.lights = {ambient_light(glm::vec3(1.0f))};
   return scene;
 }
 

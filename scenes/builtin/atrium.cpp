@@ -187,10 +187,7 @@ void add_lights(Scene& scene, uint32_t count, double reach, Pcg32& random) {
   const auto put = [&](const Light& light) {
     if (!full()) scene.lights.push_back(light);
   };
-  Light ambient;
-  ambient.type = LightType::ambient;
-  ambient.color = {0.050f, 0.052f, 0.075f};
-  put(ambient);
+  put(ambient_light({0.050f, 0.052f, 0.075f}));
   put(lamp({0.0, 5.4, -kLength / 2 - 2.4}, {0.34, 0.52, 0.95}, 15.0));  // the night outside
   put(lamp({0.0, 7.4, 5.5}, {0.30, 0.26, 0.22}, 13.0));                 // behind the viewer
   for (int i = 0; i < 10; ++i) {                                        // in the water

@@ -118,10 +118,7 @@ Scene lecture(const Parameters& parameters) {
   const glm::dvec3 things[] = {{-3.0, 1.4, -1.2}, {0.0, 1.6, -2.0}, {3.0, 1.4, -1.2}};
   for (uint32_t i = 0; i < lights; ++i) {
     if (i == 0) {
-      Light ambient;
-      ambient.type = LightType::ambient;
-      ambient.color = {0.07f, 0.07f, 0.09f};
-      scene.lights.push_back(ambient);
+      scene.lights.push_back(ambient_light({0.07f, 0.07f, 0.09f}));
       continue;
     }
     // A third shines at the things, a third at the floor, a third at the wall behind.

@@ -119,10 +119,7 @@ Scene red(const Parameters& parameters) {
   Pcg32 drift(parameters.seed, 24);
   for (uint32_t i = 0; i < lights; ++i) {
     if (i == 0) {
-      Light ambient;
-      ambient.type = LightType::ambient;
-      ambient.color = {0.04f, 0.045f, 0.09f};
-      scene.lights.push_back(ambient);
+      scene.lights.push_back(ambient_light({0.04f, 0.045f, 0.09f}));
       continue;
     }
     const glm::dvec2 even = even_point(i);

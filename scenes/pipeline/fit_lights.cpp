@@ -23,10 +23,9 @@ void fit_lights_of_ours(Scene& scene, const Pipeline& pipeline) {
   if (!scene.lights_of_ours || fit == made_for) return;
   const size_t ours = std::min(scene.lights.size(), kLightsOfOurs);
   for (Light& light : std::span(scene.lights).last(ours)) {
-    double gain = fit.divides_pi && light.type != LightType::ambient ? kPi : 1.0;
+    double gain = fit.divides_pi && !is_ambient(light.type) ? kPi : 1.0;
     if (fit.spreads != made_for.spreads) gain = fit.spreads ? gain * spread_light(light) : gain / spread_light(light);
-    for (int c = 0; c < 3; ++c)
-      light.color[c] = float(std::min(double(light.color[c]) * gain, double(json::kLargest)));
+    for (int c = 0; c < 3; ++c) light.color[c] = float(std::min(double(light.color[c]) * gain, double(json::kLargest)));
   }
 }
 

@@ -34,10 +34,10 @@ struct Field {
 
 constexpr Field<Light> kIgnorableOfLights[] = {
     {"cone_deg", "The light model has no cone, so spot lights shine in all directions, as point lights do",
-     [](const Light& l) { return l.type == LightType::spot && l.cone_rad + l.penumbra_rad < float(kPi); },
+     [](const Light& l) { return is_spot(l.type) && l.cone_rad + l.penumbra_rad < float(kPi); },
      [](const Light&, const Pipeline& p) { return p.light_model.cone != Cone::none; }},
     {"spot_exponent", "Only the cone 'exponent' raises the cosine to a power",
-     [](const Light& l) { return l.type == LightType::spot && l.spot_exponent != 0.0f; },
+     [](const Light& l) { return is_spot(l.type) && l.spot_exponent != 0.0f; },
      [](const Light&, const Pipeline& p) { return p.light_model.cone == Cone::exponent; }},
     {"range", "The falloff of the light model has no end, and no extent of light_volumes bounds the lights",
      [](const Light& l) { return is_placed(l.type) && std::isfinite(l.range); },
@@ -48,7 +48,7 @@ constexpr Field<Light> kIgnorableOfLights[] = {
      [](const Light& l) { return is_placed(l.type) && l.attenuation != glm::vec3(1.0f, 0.0f, 0.0f); },
      [](const Light&, const Pipeline& p) { return reads_attenuation(p.light_model.falloff); }},
     {"ambient", "Only the order 'with_ambient' adds a light's share of ambient light",
-     [](const Light& l) { return l.type != LightType::ambient && l.ambient != glm::vec3(0.0f); },
+     [](const Light& l) { return !is_ambient(l.type) && l.ambient != glm::vec3(0.0f); },
      [](const Light&, const Pipeline& p) { return p.light_model.order == TermOrder::with_ambient; }}};
 
 // --- Fields of materials -------------------------------------------------------------------------------------------

@@ -123,7 +123,7 @@ LightExtent drawn_extent(const Light& light, const LightVolumes& volumes) {
   const LightExtent extent = stated_extent(light.type, volumes);
   if (extent != LightExtent::cone) return extent;
   if (has_area(light.type) && row_of(light.type).is_aimed) return LightExtent::hemisphere;
-  return light.type == LightType::spot && outer_rad(light) <= kWidestCone_rad ? extent : LightExtent::sphere;
+  return is_spot(light.type) && outer_rad(light) <= kWidestCone_rad ? extent : LightExtent::sphere;
 }
 
 void light_vertices(const LightMesh& mesh, const Light& light, std::span<glm::vec3> out) {

@@ -32,7 +32,7 @@ bool has_ambient_light(const Scene& scene, const LightModel& model) {
   const FpScope fp;
   return model.global_ambient != glm::vec3(0.0f) ||
          std::any_of(scene.lights.begin(), scene.lights.end(),
-                     [](const Light& light) { return light.type == LightType::ambient; });
+                     [](const Light& light) { return is_ambient(light.type); });
 }
 
 }  // namespace trueshade

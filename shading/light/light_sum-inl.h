@@ -64,7 +64,7 @@ HWY_NOINLINE void add_one(const LightTerms<Shape>& terms, const PixelVector& px,
   term.lit = hn::And(term.lit, pixels);
   if (hn::AllFalse(d, term.adds)) return;
   add_term(terms, px, term, sum);
-  if (of.light->kind != LightKind::other || of.light->type != LightType::ambient) ++sum.evaluated;
+  if (of.light->kind != LightKind::other || !is_ambient(of.light->type)) ++sum.evaluated;
 }
 
 }  // namespace trueshade::HWY_NAMESPACE

@@ -57,7 +57,7 @@ struct ConeRow {
 
 /// The cone's numbers, each a double formula rounded once: docs/arithmetic.md section 8.
 ConeRow cone_row(const Light& light, Cone cone) {
-  if (light.type != LightType::spot || cone == Cone::none) return {};
+  if (!is_spot(light.type) || cone == Cone::none) return {};
   const double outer_rad = double(light.cone_rad) + double(light.penumbra_rad);
   const double outer = cosine(outer_rad), inner = cosine(double(light.cone_rad));
   const float e0 = float(outer), e1 = float(cone == Cone::smooth_cutoff ? outer * 0.9 + 0.1 : inner);
@@ -70,7 +70,7 @@ ConeRow cone_row(const Light& light, Cone cone) {
 }
 
 LightRow row_of(const Light& light, const LightModel& model) {
-  const glm::vec3 position = light.type == LightType::directional ? -light.direction : light.position;
+  const glm::vec3 position = is_directional(light.type) ? -light.direction : light.position;
   const ConeRow cone = cone_row(light, model.cone);
   LightRow row{};
   row.type = light.type;
@@ -116,8 +116,7 @@ void make_rows(std::span<const Light> lights, const LightModel& model, size_t fi
       row.cut2 = cut2;
     }
     // No comparison with a NaN drops a light.
-    for (int c = 0; c < 3; ++c)
-      table.position[c][first + k] = is_placed(light.type) ? row.position[c] : std::nanf("");
+    for (int c = 0; c < 3; ++c) table.position[c][first + k] = is_placed(light.type) ? row.position[c] : std::nanf("");
     table.cut2[first + k] = row.cut2;
   }
 }
@@ -136,7 +135,7 @@ void bound_rows(std::span<const Light> lights, const LightVolumes& volumes, bool
 
 bool has_cones(std::span<const Light> lights, const LightModel& model) {
   return model.cone != Cone::none &&
-         std::any_of(lights.begin(), lights.end(), [](const Light& l) { return l.type == LightType::spot; });
+         std::any_of(lights.begin(), lights.end(), [](const Light& l) { return is_spot(l.type); });
 }
 
 uint64_t next_version() {

@@ -233,8 +233,8 @@ struct LightTerms {
   /// One light. Where `adds` is empty nothing else is computed.
   HWY_INLINE LightTerm operator()(const PixelVector& px, const LightRow& light) const {
     const DF d;
-    if (light.type == LightType::ambient) return ambient(px, light);
-    const bool directional = light.type == LightType::directional;
+    if (is_ambient(light.type)) return ambient(px, light);
+    const bool directional = is_directional(light.type);
     LightChain at;
     at.light = &light;
     if (directional) {

@@ -66,13 +66,6 @@ Pipeline map_pipeline(Random& random, size_t i) {
   return p;
 }
 
-Light ambient_light(const glm::vec3& color) {
-  Light light;
-  light.type = LightType::ambient;
-  light.color = color;
-  return light;
-}
-
 float value(const Frame& frame, size_t aov, int x, int y, int c) {
   const Image& image = frame.aovs[aov].image;
   return at<float>(image, x, image.height - 1 - y, c);  // y up

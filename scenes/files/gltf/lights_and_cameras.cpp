@@ -14,9 +14,9 @@ Light light_of(const Document& document, uint32_t index) {
   Light light;
   light.type = *from.type;
   for (int k = 0; k < 3; ++k) light.color[k] = float(double(from.color[k]) * from.intensity);
-  if (light.type == LightType::directional) return light;
+  if (is_directional(light.type)) return light;
   light.range = from.range;
-  if (light.type != LightType::spot) return light;
+  if (!is_spot(light.type)) return light;
   light.cone_rad = float(from.inner_rad);
   light.penumbra_rad = float(from.outer_rad - from.inner_rad);
   return light;

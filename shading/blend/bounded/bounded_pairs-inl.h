@@ -111,7 +111,7 @@ HWY_NOINLINE uint64_t add_exact_run(const LightTerms<Shape>& terms, std::span<co
       const MF pixels = pairs.hit(light, block, in.pixels[block]).mask();
       if (hn::AllFalse(DF(), pixels)) continue;
       in.codes[block].add(terms, in.px[block], terms(in.px[block], *light.light), pixels);
-      computed += light.light->type == LightType::ambient ? 0 : kLanes;
+      computed += is_ambient(light.light->type) ? 0 : kLanes;
     }
   return computed;
 }

@@ -16,13 +16,13 @@ bool is_same(const LightSource& source, const Light& light, bool photometric) {
   bool same = is_near(source.intensity, strength);
   for (int k = 0; k < 3; ++k)
     same = same && is_near(double(source.color[k]), largest > 0 ? double(light.color[k]) / largest : 0.0);
-  const bool has_range = light.type != LightType::directional && std::isfinite(light.range) && light.range >= 1e-30f &&
-                         light.range <= 1e18f;
+  const bool has_range =
+      !is_directional(light.type) && std::isfinite(light.range) && light.range >= 1e-30f && light.range <= 1e18f;
   return same && (has_range ? is_near(double(source.range), double(light.range)) : !std::isfinite(source.range));
 }
 
 bool is_at(const NodeSource& node, const Light& light) {
-  if (!node.matrix || light.type == LightType::directional) return node.matrix.has_value();
+  if (!node.matrix || is_directional(light.type)) return node.matrix.has_value();
   for (int k = 0; k < 3; ++k)
     if (!is_near((*node.matrix)[3][k], double(light.position[k]))) return false;
   return true;
@@ -31,7 +31,7 @@ bool is_at(const NodeSource& node, const Light& light) {
 }  // namespace
 
 double photometric_intensity(const Light& light, bool photometric) {
-  if (photometric || light.type == LightType::directional) return 1.0;
+  if (photometric || is_directional(light.type)) return 1.0;
   if (std::isfinite(light.range)) return double(light.range) * double(light.range) / 8.0;
   return light.attenuation.z > 0.0f ? 1.0 / double(light.attenuation.z) : 1.0;
 }

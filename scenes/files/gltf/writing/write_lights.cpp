@@ -30,10 +30,9 @@ std::string punctual(const Light& light, bool photometric) {
                           std::min(light.color.z * scale, 1.0)};
   append_json(text, std::span<const double>(color));
   append_json(text += ",\"intensity\":", std::min(largest * photometric_intensity(light, photometric), 1e18));
-  if (light.type != LightType::directional && std::isfinite(light.range) && light.range >= 1e-30f &&
-      light.range <= 1e18f)
+  if (!is_directional(light.type) && std::isfinite(light.range) && light.range >= 1e-30f && light.range <= 1e18f)
     append_json(text += ",\"range\":", light.range);
-  if (light.type == LightType::spot) {
+  if (is_spot(light.type)) {
     constexpr double kLeast = 1e-3;
     const double outer = std::clamp(double(light.cone_rad) + double(light.penumbra_rad), kLeast, 0.5 * kPi);
     append_json(text += ",\"spot\":{\"innerConeAngle\":",
@@ -47,7 +46,7 @@ std::string punctual(const Light& light, bool photometric) {
 /// KHR_lights_punctual shines along -z.
 std::string light_node(const Light& light, uint32_t index) {
   const std::string rest = "\"extensions\":{\"KHR_lights_punctual\":{\"light\":" + std::to_string(index) + "}}";
-  const glm::dvec3 position = light.type == LightType::directional ? glm::dvec3(0.0) : glm::dvec3(light.position);
+  const glm::dvec3 position = is_directional(light.type) ? glm::dvec3(0.0) : glm::dvec3(light.position);
   if (light.type == LightType::point) return placed({1, 0, 0}, {0, 1, 0}, {0, 0, 1}, position, rest);
   const glm::dvec3 z = unit(-glm::dvec3(light.direction));
   const glm::dvec3 beside = std::fabs(z.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
