@@ -196,12 +196,17 @@ Framing framing_of(const Scene& scene, const SeenFrom& view) {
   return framing;
 }
 
-Camera camera_seeing(const Scene& scene, double aspect, float fov_y_rad) {
-  const FpScope fp;
+namespace {
+
+/// The way from what is drawn to a camera of ours.
+glm::dvec3 toward_camera(const Scene& scene) { return unit(turned(kFromTheFront, turn_of_side(scene))); }
+
+/// As camera_seeing(), with the way to the camera.
+Camera camera_toward(const glm::dvec3& toward, const Scene& scene, double aspect, float fov_y_rad) {
   Camera camera;
   camera.fov_y_rad = fov_y_rad;
   SeenFrom view;
-  view.toward = unit(turned(kFromTheFront, turn_of_side(scene)));
+  view.toward = toward;
   view.right = unit(cross(glm::dvec3(0.0, 1.0, 0.0), view.toward)), view.up = cross(view.toward, view.right);
   const double slope = tangent(0.5 * double(fov_y_rad));
   view.slope = {slope * aspect, slope};
@@ -214,13 +219,19 @@ Camera camera_seeing(const Scene& scene, double aspect, float fov_y_rad) {
   return camera;
 }
 
+}  // namespace
+
+Camera camera_seeing(const Scene& scene, double aspect, float fov_y_rad) {
+  const FpScope fp;
+  return camera_toward(toward_camera(scene), scene, aspect, fov_y_rad);
+}
+
 void add_camera_of_ours(Scene& scene) {
   const FpScope fp;
+  const glm::dvec3 toward = toward_camera(scene);
   std::optional<Camera> inside;
-  if (scene.is_model)
-    inside = camera_in_room(scene, without_ground(scene), bounds_without_ground(scene),
-                            unit(turned(kFromTheFront, turn_of_side(scene))));
-  scene.camera = inside ? *inside : camera_seeing(scene);
+  if (scene.is_model) inside = camera_in_room(scene, without_ground(scene), bounds_without_ground(scene), toward);
+  scene.camera = inside ? *inside : camera_toward(toward, scene, 1.0, kFovOfOurs_rad);
   scene.camera_of_ours = true;
   scene.seen_from_inside = inside.has_value();
 }

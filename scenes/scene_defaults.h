@@ -43,10 +43,13 @@ bool looks_at_faces(const Scene& scene);
 /// is the side, of the front, the back and both others, where most fronts are seen.
 glm::dvec2 turn_of_side(const Scene& scene);
 
+/// Of cameras of ours, from the bottom of the picture to its top.
+inline constexpr float kFovOfOurs_rad = 0.5f;
+
 /// A camera above and to the right of the front, or of the side of turn_of_side(), that sees all that is drawn: it
 /// fills 85 % of the width or of the height of a picture of this aspect, width / height, and is in the middle.
 /// `fov_y_rad`: full vertical angle.
-Camera camera_seeing(const Scene& scene, double aspect = 1.0, float fov_y_rad = 0.5f);
+Camera camera_seeing(const Scene& scene, double aspect = 1.0, float fov_y_rad = kFovOfOurs_rad);
 
 /// Gives a scene without a camera one of ours: that of camera_seeing() for square pictures or, of a model that is a
 /// room, that of camera_in_room() (scenes/room.h).
