@@ -4,14 +4,14 @@
 
 namespace trueshade::oracle {
 
-/// One fragment of glass at a pixel.
+/// One fragment of glass at a pixel, lit.
 struct GlassLayer {
   uint32_t instance = 0;
   double distance = 0;  ///< squared, from the eye to the origin of the object
   Color color{};        ///< lit, and its alpha
 };
 
-/// What a fault may change: fragments in the order in which they are drawn, and how they are blended.
+/// What a glass fault may change: the fragments in the order in which they are drawn, and how they are blended.
 struct GlassPixel {
   std::vector<GlassLayer> layers;
   BlendState blend;
@@ -37,7 +37,7 @@ struct NamedGlassFault {
   FaultParameter parameter;
 };
 
-/// Findings about the pixels under glass, the likeliest first, as diagnose() has them; none where fewer than
+/// Explains wrong pixels under glass: the likeliest findings first, as from diagnose(). None where fewer than
 /// kLeastChanged pixels are wrong. For TransparencyMode::after_lights.
 ///   picture: of the same capture; predicts what the lights make before glass is drawn
 ///   only: faults that are supposed, one at a time; empty: look for the likeliest

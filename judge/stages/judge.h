@@ -15,7 +15,7 @@
 
 namespace trueshade::oracle {
 
-/// What a judgement of surfaces found on its way.
+/// What judge_gbuffer() finds on its way and other judgements of the capture may use.
 struct FoundSurfaces {
   PossibleSurfaces surfaces;                  ///< `first` is empty where none were looked for
   std::shared_ptr<LevelHulls> level_hulls{};  ///< of the scene's textures, whatever the profile
@@ -45,39 +45,44 @@ StageVerdict judge_gbuffer(const Scene& scene, const Pipeline& pipeline, const P
 StageVerdict judge_lighting(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                             const Capture& capture, const JudgedRows& rows = {});
 
-/// What a capture was found to be by one profile: profiles that allow less are asked faster beside it.
+/// The judgement of a capture by one profile. Profiles that allow less are judged faster with it.
 struct JudgedBefore {
   Profile profile;
   FoundSurfaces found;
   const StageVerdict* lighting = nullptr;  ///< judge_lighting() of all rows, where that was asked
 };
 
-/// Finds the violations alone of judge_gbuffer(): every other pixel is EXACT, and nothing is known of the whole image.
-/// `before`: may be null; is passed over where its profile does not allow all that `profile` allows.
+/// As judge_gbuffer(), but finds violations only: every other pixel is EXACT, and nothing is kept for the tests of the
+/// whole image.
+///   before: may be null; not used where its profile does not allow all that `profile` allows
 StageVerdict gbuffer_violations(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                                 const Capture& capture, const JudgedRows& rows, const JudgedBefore* before);
 
-/// Finds the violations alone of judge_lighting(), likewise.
+/// As judge_lighting(), but finds violations only; `before` as for gbuffer_violations().
 StageVerdict lighting_violations(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                                  const Capture& capture, const JudgedRows& rows, const JudgedBefore* before);
 
 /// Judges strategies that blend, light by light: the target after each light against what the driver's *own* target
-/// before it may become. Of deferred-volumes each covering triangle of the light's geometry is a fragment
-/// (light_cover.h); EDGE and CLIP are pixels with another number of them than the nominal one. Of forward-multipass
-/// what may share the visible surface's depth may add to it too: DEPTH-TIE. A pixel's class is its worst over all
-/// lights, and one that is a violation after one light is judged from what it then holds after the next.
+/// before that light may become. Under deferred-volumes each triangle of a light's geometry that covers the pixel is a
+/// fragment (light_cover.h); EDGE and CLIP are pixels with another number of fragments than the nominal one. Under
+/// forward-multipass surfaces that may share the visible one's depth may add to the pixel too: DEPTH-TIE. A pixel's
+/// class is its worst over all lights. A pixel that is a violation after one light is judged from what it then holds
+/// after the next.
+///   steps: hands over the target before the first light (-1), then after each light; Error(bad_input) where it does
+///          not
 StageVerdict judge_blending(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                             const Capture& capture, const LightSteps& steps);
 
-/// judge_blending() by each profile, the lights drawn once.
+/// judge_blending() by each of the profiles; the lights are drawn once for all.
 std::vector<StageVerdict> judge_blending(const Scene& scene, const Pipeline& pipeline,
                                          std::span<const Profile> profiles, const Capture& capture,
                                          const LightSteps& steps);
 
-/// Judges surfaces blended over the target after the lights: the target after each against what the driver's *own*
-/// target before it may become. `objects`: the target before the first of them (-1), then after transparent instances
-/// in order, not necessarily all; the last among them. Fragments are tested against the capture's plane depth where it
-/// has one. A pixel's class is its worst over all steps.
+/// Judges surfaces that are blended over the target after the lights: the target after each surface against what the
+/// driver's *own* target before it may become. Fragments are tested against the capture's plane depth where it has one.
+/// A pixel's class is its worst over all steps.
+///   objects: hands over the target before the first such surface (-1), then after transparent instances in order, not
+///            necessarily all; the last among them. Error(bad_input) where it does not
 StageVerdict judge_transparency(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                                 const Capture& capture, const LightSteps& objects);
 

@@ -18,7 +18,7 @@ struct ValidateOptions {
   bool infer = false;          ///< also find the tightest profile: judgements of some rows, and one or two more of all
   LightSteps steps{};          ///< of strategies that draw light by light: to judge each light by itself
   LightSteps objects{};        ///< of surfaces transparent after the lights: to judge each by itself
-  double significance = 1e-6;  ///< of the tests of the whole image: how many legal images may fail them
+  double significance = 1e-6;  ///< how often the tests of the whole image may fail a legal image
   std::function<void(const char* part)> begins{};  ///< called before each part, such as `the surfaces`
   bool surfaces = true;  ///< false: the G-buffer is taken as it is, and only what lights make of it is judged
 };
@@ -34,7 +34,8 @@ struct Verdict {
   std::optional<Inference> inferred;
 
   uint64_t violations() const;                      ///< over all stages; the command's exit code is 1 where it is not 0
-  double least_chance(size_t stages_judged) const;  ///< of one test, so that all of them pass by the significance
+  double least_chance(size_t stages_judged) const;  ///< the chance below which one test fails, so that all together
+                                                    ///< fail as rarely as `significance` says
   bool rounds_unlike_any() const;  ///< some stage's stores or surfaces are not what any known rounding makes
   bool convicted() const;          ///< legal pixel by pixel, yet no implementation that is known makes such an image
   bool suspicious() const;         ///< convicted, or stores follow another known rule than the one that is stated
@@ -45,9 +46,9 @@ struct Verdict {
   std::string material_line() const;
 };
 
-/// Judges every stage the capture has planes for: the target by its last state, as `lighting`; or, with steps, light by
-/// light, as `blending`, and by its last state only where drawing it again with a look at each light made another one.
-/// Throws Error(bad_input) where there is none, or a size is wrong.
+/// Judges every stage that the capture has planes for. The target is judged by its final state (`lighting`) or, where
+/// `steps` are given, light by light (`blending`); then by its final state too only if drawing it light by light gave
+/// another image. Error(bad_input) where the capture has no plane to judge, or one of another size than the pipeline's.
 Verdict validate_capture(const Scene& scene, const Pipeline& pipeline, const Capture& capture,
                          const ValidateOptions& options = {});
 
