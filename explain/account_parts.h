@@ -6,7 +6,7 @@
 
 namespace trueshade {
 
-// Parts of a pixel's account that have files of their own.
+// The parts of a pixel's account, in the files that are named here.
 
 /// What became of the triangles at the pixel (account_of_triangles.cpp): how many had each Fate, then a part for each
 /// that covers the sample, and for some that are culled or lie beside the sample. The triangles that `detail` leaves

@@ -83,7 +83,7 @@ PixelTriangles triangles_at(const ExplainedFrame& frame, WindowPixel pixel, Surf
 
 /// What became of one triangle at a pixel. Numbers that its fate leaves unknown have their defaults.
 PixelFragment fragment_of(const ExplainedFrame& frame, uint32_t instance, uint32_t triangle, WindowPixel pixel);
-/// The same of a triangle that covers the sample.
+/// The numbers of the fragment of a triangle that covers the sample.
 inline PixelFragment fragment_of(const ExplainedFrame& frame, const CoveringTriangle& of, WindowPixel pixel) {
   return fragment_of(frame, of.instance, of.triangle, pixel);
 }

@@ -27,8 +27,8 @@ class Following {
   Following& operator=(const Following&) = delete;
 
   /// Makes the tasks by `prepare`, and does those that rank 0 hands out until rank 0 says that all are done. Returns
-  /// whether another call of share_tasks() follows. What `prepare` or a task throws is sent to rank 0, not thrown here.
-  /// Throws Error(io) where rank 0 is lost, Error(bad_input) where its messages are of another version.
+  /// whether another call of share_tasks() follows. What `prepare` or a task throws is sent to rank 0 and not thrown
+  /// here. Throws Error(io) where rank 0 is lost, Error(bad_input) where its messages are of another version.
   bool work(const std::function<SharedTasks()>& prepare);
 
  private:

@@ -63,7 +63,7 @@ class Leading {
 
   void end_within(std::chrono::milliseconds patience, bool goes_on);
 
-  // The functions from here to name_of() are called under the lock.
+  // The functions below are called under the lock.
   // Acts on a message of a rank, which is also a sign of life. `says` is empty where the message is of another version:
   // then the rank is left out. Messages of another round are dropped.
   void hear(int rank, std::optional<RankSays> says);

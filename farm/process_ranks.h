@@ -18,8 +18,8 @@ MpiStart mpi_start();
 /// links MPI. Error(io) where that cannot be loaded, or where others have not come within two minutes.
 Ranks* process_ranks();
 
-/// Call it last before the process ends. If the ranks were joined it is Ranks::leave(), which waits for the others for
-/// some seconds, and ends the process here where one is lost. Otherwise it does nothing. Returns `exit_code`.
+/// Leaves the ranks, if they were joined, by Ranks::leave(), which waits for the others for some seconds, and ends the
+/// process here where one is lost. Returns `exit_code`. Call it last before the process ends.
 int leave_process_ranks(int exit_code);
 
 }  // namespace trueshade

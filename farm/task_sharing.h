@@ -52,7 +52,8 @@ struct SharedTasks {
   std::function<std::vector<uint8_t>(int task, std::span<const uint8_t> brief, const Wanted& wanted)> run;
   int at_once = 1;  ///< tasks that this process does at a time, each on a thread of its own
 
-  /// Called once, on any thread, when no result of this process is wanted any more; for tasks that cannot ask `wanted`.
+  /// Called once, on any thread, when no result of this process is wanted any more; stops tasks that cannot ask
+  /// `wanted`.
   std::function<void()> stop;
   /// Called on rank 0 several times a second while results are awaited, under a lock, on any thread. An exception from
   /// it ends the run.

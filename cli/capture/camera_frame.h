@@ -25,11 +25,13 @@ class CameraFrame {
   /// The world position where all rays meet; of an orthographic camera the scene's camera position.
   const Real3& eye() const { return eye_; }
 
-  /// The world position on the ray of pixel (x, y)'s centre, y from the top, at a distance along the camera's axis.
+  /// The world position on the ray of pixel (x, y)'s centre, y from the top, at a distance along the camera's axis,
+  /// scene units.
   Real3 at_linear(int x, int y, double depth) const;
-  /// The same at a distance from the eye; of an orthographic camera, along its axis.
+  /// The world position on the ray of pixel (x, y)'s centre, y from the top, at a distance from the eye, scene units;
+  /// of an orthographic camera, at a distance along its axis.
   Real3 at_distance(int x, int y, double distance) const;
-  /// The same at a window depth, as the depth buffer holds it.
+  /// The world position on the ray of pixel (x, y)'s centre, y from the top, at a window depth.
   Real3 at_window(int x, int y, double depth) const;
   /// The window depth of a world position, not clamped; infinite or NaN in the plane of the eye.
   double window_depth(const Real3& point) const;

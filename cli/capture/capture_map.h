@@ -70,8 +70,8 @@ struct CaptureMap {
 /// the plane or with each other, and a map that names no plane and does not say rows=bottom_up.
 CaptureMap capture_map_from_text(std::string_view text, const std::string& where, ErrorKind kind);
 
-/// Reads the value of `--map`: a list of entries, or @FILE, which is read. Throws as capture_map_from_text() does:
-/// Error(usage) for a list, Error(bad_input) for a file.
+/// Reads the value of the option `--map`: entries with commas between, or @FILE for a file that holds them. Throws as
+/// capture_map_from_text() does: Error(usage) for entries in the value, Error(bad_input) for those in a file.
 CaptureMap capture_map_from_option(const std::string& value);
 
 /// The words of a plane as they stand in an entry, with colons between; without `bottom_up`.

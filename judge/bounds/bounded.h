@@ -36,9 +36,9 @@ inline constexpr double kSmallestFloat = 0x1p-126;
 /// known.
 struct Bounded {
   double value = 0, error = 0;
-  /// The least that the computed number may be.
+  /// The least number that may have been computed.
   double low() const { return value - error; }
-  /// The most that the computed number may be.
+  /// The greatest number that may have been computed.
   double high() const { return value + error; }
 };
 using Bounded3 = std::array<Bounded, 3>;
@@ -48,7 +48,7 @@ inline Bounded rounded(double value, double error, double relative) {
   return {value, error + relative * (std::fabs(value) + error) + kSmallestFloat};
 }
 
-/// x - y, rounded once.
+/// x - y, rounded once, with the bound on its error.
 inline Bounded difference(const Arithmetic& a, const Bounded& x, const Bounded& y) {
   return rounded(x.value - y.value, x.error + y.error, a.roundoff);
 }
@@ -58,7 +58,7 @@ inline Bounded product(const Arithmetic& a, const Bounded& x, const Bounded& y) 
   return rounded(x.value * y.value, error >= 0 ? error : HUGE_VAL, a.roundoff);
 }
 
-/// x / y: |x/y - (x+dx)/(y+dy)| <= (dx + |x/y| dy) / (|y| - dy). Infinite error where y may be 0.
+/// x / y. The error follows from |x/y - (x+dx)/(y+dy)| <= (dx + |x/y| dy) / (|y| - dy); infinite where y may be 0.
 inline Bounded quotient(const Arithmetic& a, const Bounded& x, const Bounded& y) {
   const double room = std::fabs(y.value) - y.error;
   if (!(room > 0)) return {0, HUGE_VAL};
@@ -80,14 +80,15 @@ inline Bounded dot(const Arithmetic& a, const Bounded3& x, const Bounded3& y) {
   return r;
 }
 
-/// 1 / sqrt(x), x >= 0: derivative -x^(-3/2) / 2, largest at the low end. Infinite error where x may be 0.
+/// 1 / sqrt(x) of an x that is not below 0. The error follows from the derivative -x^(-3/2) / 2, which is largest at
+/// the low end; infinite where x may be 0.
 inline Bounded inverse_sqrt(const Arithmetic& a, const Bounded& x) {
   if (!(x.low() > 0)) return {x.value > 0 ? 1 / std::sqrt(x.value) : 0, HUGE_VAL};
   const double low_root = std::sqrt(x.low());
   return rounded(1 / std::sqrt(x.value), x.error / (2 * x.low() * low_root), a.inverse_sqrt);
 }
 
-/// sqrt(x), x >= 0: |sqrt(x+e) - sqrt(x)| <= min(e / sqrt(x), sqrt(e)).
+/// sqrt(x) of an x that is not below 0. The error follows from |sqrt(x+e) - sqrt(x)| <= min(e / sqrt(x), sqrt(e)).
 inline Bounded square_root(const Arithmetic& a, const Bounded& x) {
   const double root = std::sqrt(std::max(0.0, x.value));
   const double inherited = root > 0 ? std::min(x.error / root, std::sqrt(x.error)) : std::sqrt(x.error);

@@ -33,7 +33,7 @@ enum class HalfStore : uint8_t {
   through_halves,  ///< to the nearest half, either of two; floats of 11 and 10 bits are that half, cut
                    ///< (SwiftShader)
 };
-/// How the planes of attributes and of 1 / w are made.
+/// How a driver computes the interpolation planes of attributes and of 1 / w.
 enum class PlaneForm : uint8_t {
   differences,  ///< through the vertices of what clipping leaves, by differences of their values
   homogeneous,  ///< sums of the values of all three vertices that were submitted, also those behind the eye, times the
@@ -95,7 +95,8 @@ struct Profile {
   bool exact_planes = false;    ///< attributes are within 1 ulp of the largest vertex value, inside the vertices' hull
   bool clips_to_view = true;    ///< triangles that leave the view may be cut at its sides and snapped again there
   double unorm_reach = 1.0;     ///< a unorm store may reach |code - 255 x|; 1 excludes 1 itself: an integer is exact
-  /// The same bound for an encoded sRGB value: drivers approximate the power (docs/data/drivers.md, stores).
+  /// A sRGB store may reach |code - 255 x| of the encoded value x: drivers approximate the power (docs/data/drivers.md,
+  /// stores).
   double srgb_reach = 1.0;
   HalfStore half = HalfStore::either;
   StoreRule likely;  ///< the rule that is nominal among those allowed; resolved() finds it where its `half` is open

@@ -48,8 +48,8 @@ class ProgramBounds {
     uint32_t light = 0;
   };
 
-  /// Compiles the program, and computes what holds for the frame and for each light. Throws as
-  /// programs::program_from_glsl() does; Error(usage) where a parameter has no value.
+  /// Compiles the program, and computes what depends on the frame alone and on each light alone. Throws as
+  /// programs::program_from_glsl() does; Error(usage) where a parameter has no value, Error(limit) for too many lights.
   ProgramBounds(const Scene& scene, const Pipeline& pipeline, const Arithmetic& arithmetic);
   /// Takes another program in place of the pipeline's; it must have the same inputs.
   ProgramBounds(const Scene& scene, const Pipeline& pipeline, const Arithmetic& arithmetic, programs::Program program);
@@ -80,8 +80,8 @@ class ProgramBounds {
   /// only where intervals over all that the surfaces hold prove that its term is 0 and that it does not count as lit.
   void take_near(std::span<const ShadedSurface* const> surfaces, Block& block, std::vector<uint32_t>& near) const;
 
-  /// Sets `lit` to alone() of each of these lights at one surface. The values are those of alone(); the bounds are as
-  /// wide or wider, except perhaps where a number may be NaN.
+  /// Bounds what each of these lights adds to one surface by itself, a light a SIMD lane, and writes that to `lit`. The
+  /// values are those of alone(); the bounds are as wide or wider, except perhaps where a number may be NaN.
   void apart(const ShadedSurface& surface, std::span<const uint32_t> lights, bool ends, Block& block,
              LitApart& lit) const;
 
@@ -91,8 +91,9 @@ class ProgramBounds {
     std::array<double, 3> magnitude{};
     int added = 0, lights_low = 0, lights_high = 0;
   };
-  /// Sets `lit` to at() of each surface; at most kIntervalLanes surfaces. Values, branches and counts are those of
-  /// at(); the bounds are as wide or wider, except perhaps where a number may be NaN.
+  /// Bounds the sum of these lights at each of at most kIntervalLanes surfaces, and writes it to `lit`. Values,
+  /// branches and counts are those that at() gives for one surface; the bounds are as wide or wider, except perhaps
+  /// where a number may be NaN.
   void at(std::span<const ShadedSurface* const> surfaces, std::span<const uint32_t> lights, Block& block,
           std::span<LitRange> lit) const;
 

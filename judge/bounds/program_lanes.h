@@ -20,7 +20,7 @@ struct ProgramTerm {
   ProgramPlace from;
   bool negated = false;
 };
-/// x (1 - a) + y a, which drivers also compute as x + a (y - x).
+/// The places of x, y and a in a sum x (1 - a) + y a, which drivers may also compute as x + a (y - x).
 struct ProgramMix {
   ProgramPlace x, y, a;
 };

@@ -15,7 +15,7 @@ namespace trueshade::oracle {
 
 using Pair = std::array<double, 2>;
 
-/// A vertex in window pixels, y up, and what float arithmetic and snapping may make of it.
+/// A vertex in window space, pixels, y up, with the places that float arithmetic and snapping may give it.
 struct WindowVertex {
   Pair exact{};                    ///< of the real coordinates: equal where two triangles share the vertex
   Pair low{}, high{};              ///< the box that the snapped vertex lies in; coverage is computed from it
@@ -30,7 +30,7 @@ struct WindowVertex {
   double linear_error = 0;
 };
 
-/// A triangle, or a piece of the fan of a clipped one.
+/// A triangle in the window; where clipping cuts a triangle, one of the triangles that it leaves.
 struct Piece {
   std::array<WindowVertex, 3> v;
   bool cut = false;          ///< by near, far or w
@@ -46,7 +46,7 @@ struct Piece {
   std::shared_ptr<const std::array<WindowVertex, 3>> submitted{};
 };
 
-/// How surely a piece has a sample.
+/// Whether a piece covers a sample.
 enum class Cover : uint8_t { no, maybe, certain };
 
 /// How a piece covers a sample. Edge i runs from vertex i+1 to vertex i+2. With A and B the edge's ends relative to the
@@ -93,7 +93,7 @@ class Projector {
   /// most triangles of a fine mesh have no sample.
   bool near_pixels(uint32_t instance, uint32_t triangle, PixelRect& rect) const;
 
-  /// Sets `out` to the pieces that are left of the triangle after near, far and w; to none where a clip coordinate is
+  /// Sets `out` to the triangle's pieces: what the near and far planes and w > 0 leave. None where a clip coordinate is
   /// NaN or infinite.
   void pieces(uint32_t instance, uint32_t triangle, std::vector<Piece>& out) const;
 
@@ -113,9 +113,9 @@ class Projector {
   const Scene& scene() const { return scene_; }
   /// The hulls of the scene's textures, for another projector of the scene.
   const std::shared_ptr<LevelHulls>& level_hulls() const { return level_hulls_; }
-  /// Pixels of the picture.
+  /// The picture's width in pixels.
   int width() const { return pipeline_.width; }
-  /// Pixels of the picture.
+  /// The picture's height in pixels.
   int height() const { return pipeline_.height; }
 
  private:

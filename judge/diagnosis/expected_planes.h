@@ -31,8 +31,8 @@ struct ExpectedPixel {
 /// What each pixel of a G-buffer should hold. A pixel is computed when it is first asked for, and kept.
 class ExpectedPlanes {
  public:
-  /// Finds the possible surfaces of all pixels. Borrows the scene.
-  ///   drawn_at: the window pixel that the picture's lower left one was
+  /// Finds the surfaces that each pixel may show. Borrows the scene.
+  ///   drawn_at: the window pixel at the picture's lower left
   ExpectedPlanes(const Scene& scene, const Pipeline& pipeline, const Profile& profile, std::array<int, 2> drawn_at);
   /// What the pixel should hold; any thread may ask. Where nothing is drawn, 0 and the clear depth.
   ExpectedPixel at(int x, int y_top) const;

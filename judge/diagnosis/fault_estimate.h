@@ -5,7 +5,7 @@
 namespace trueshade::oracle {
 
 /// The parameters with which a fault, supposed beside other faults, explains most of `pixels`; the best first. A fault
-/// without a parameter gives one that means nothing. Empty where no parameter explains any pixel. Where the parameter
+/// without a parameter gives one that means nothing. Empty where nothing points at a parameter. Where the parameter
 /// is searched for, predicts the pixels some dozens of times or more.
 ///   off_if_right: how many steps each of `pixels` is off without any fault
 std::vector<FaultParameter> likely_parameters(const PictureCase& picture, const PictureSupposition& supposed,

@@ -17,13 +17,13 @@ struct FaultParameter {
   FaultParameter(double of, const std::array<double, 3>& v, double p = 0) : number(of), vector(v), part(p) {}
 };
 
-/// Which of the numbers a fault has.
+/// Which numbers the parameter of a fault has.
 struct ParameterForm {
   bool number = false, part = false;
   int vector = 0;  ///< numbers of the vector
-  /// Whether there are numbers at all.
+  /// Whether the fault has any number.
   bool any() const { return number || vector > 0; }
-  /// How many numbers there are.
+  /// How many numbers the fault has.
   int count() const { return (number ? 1 : 0) + (part ? 1 : 0) + vector; }
 };
 
@@ -37,7 +37,7 @@ std::string listed_parameter(const ParameterForm& form);
 /// size.
 std::optional<FaultParameter> parameter_of_name(const ParameterForm& form, std::string_view text);
 
-/// A fault's text with its numbers in place of `%s` (`word`), `%p` (the part) and `%v` (the vector), each once.
+/// A fault's sentence with its numbers put in, each once: `word` for `%s`, the part for `%p`, the vector for `%v`.
 std::string text_with(std::string_view text, const ParameterForm& form, const FaultParameter& parameter,
                       const std::string& word);
 

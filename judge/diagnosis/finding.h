@@ -21,7 +21,7 @@ struct Proof {
   bool anything = false;  ///< the fault predicts no number there: `predicted` is what was given
 };
 
-/// A fault that explains pixels which are not what they should be.
+/// A fault that explains pixels of a capture which are not as they should be.
 struct Finding {
   std::string name;          ///< of the fault, with its parameter: `light-range=1.01`; what `--suppose` takes
   std::string plane;         ///< that is wrong: `picture`, `normal`, ..., or `G-buffer`

@@ -17,21 +17,21 @@ struct GlassPixel {
   BlendState blend;
 };
 
-/// A row of the table of glass faults.
+/// A row of the table of glass faults: what a renderer does wrong, and how it changes a pixel's fragments.
 struct GlassFault {
   std::string_view name, text;  ///< text: `%s` stands for the parameter
   void (*change)(GlassPixel&, double) = nullptr;
   bool of_object = false;  ///< its parameter is an object that is transparent
   std::string (*says)(double) = nullptr;
 
-  /// Which numbers the fault has: an object, or none.
+  /// Which numbers the fault's parameter has: an object, or none.
   ParameterForm form() const { return {of_object, false, 0}; }
 };
 
 /// All glass faults.
 std::span<const GlassFault> glass_faults();
 
-/// A fault with its parameter.
+/// A fault that is supposed, with its parameter.
 struct NamedGlassFault {
   const GlassFault* fault = nullptr;
   FaultParameter parameter;

@@ -15,7 +15,7 @@
 
 namespace trueshade::oracle {
 
-/// A surface as the light pass reads it.
+/// A pixel's surface as the light pass reads it, in double, without bounds on errors.
 struct PlainSurface {
   bool covered = false;
   std::array<double, 3> position{}, normal{}, specular{}, emission{};
@@ -76,7 +76,7 @@ struct LightPass {
 /// The right pass of this scene. A pipeline's light program becomes `program`, and the light model is emptied.
 LightPass light_pass_of(const Scene& scene, const Pipeline& pipeline);
 
-/// RGBA of one pixel.
+/// The RGBA that is predicted for one pixel.
 struct PredictedPixel {
   std::array<double, 4> stored{};  ///< as PlaneView::stored() has it: codes, or floats
   std::array<double, 4> value{};   ///< before the store; of strategies that blend, the value of `stored`

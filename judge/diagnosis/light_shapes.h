@@ -37,7 +37,7 @@ class ConvexMesh {
   double inner_ = 0, outer_ = 0;  ///< radii of spheres about the origin, in the mesh and about it; inner_ 0: none is
 };
 
-/// The meshes of a pipeline's lights.
+/// The meshes that a pipeline's lights are drawn as.
 class LightShapes {
  public:
   /// Makes the unit mesh of each extent that is drawn as a mesh.

@@ -23,7 +23,7 @@ struct SharedPixel {
   std::vector<Share> lights;
 };
 
-/// Sampled pixels of a picture, each with the term of every light that adds to it. Borrows the scene and the capture.
+/// Sampled pixels of a picture, each with what every light should add to it. Borrows the scene and the capture.
 class LightShares {
  public:
   /// Leaves out pixels that no light adds to, that show no surface or an unlit one, and of which a term is not finite.

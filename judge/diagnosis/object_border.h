@@ -22,9 +22,9 @@ class ObjectBorder {
   ObjectBorder(const PlaneEvidence& evidence, uint32_t object);
 
   /// Draws the scene's object alone, and counts the pixels where the drawing and the capture disagree on whether the
-  /// object is seen. Drawn pixels that show a nearer surface do not count.
+  /// object is seen. Pixels where the capture shows a nearer surface do not count.
   int mismatches(const Scene& scene, const Pipeline& pipeline);
-  /// Whether there are no pixels to compare.
+  /// Whether there are no pixels to compare with.
   bool empty() const { return places_.empty(); }
 
  private:

@@ -54,7 +54,7 @@ struct PictureSupposition {
   int stale = 0;                       ///< side in pixels of tiles, of which those that stand out hold anything; or 0
   std::shared_ptr<KnownPixels> known;  ///< pixels that `pass` made; null: none are kept
 
-  /// Adds a fault to those that are supposed. Drops `known` where the fault changes what the pass makes.
+  /// Supposes one more fault. Sets `known` to null where the fault changes what the light pass makes.
   void suppose(const PictureFault& fault, const FaultParameter& parameter);
 };
 
@@ -85,7 +85,7 @@ class PictureCase {
   ///   off_if_right: steps_off() of each of `pixels` without any fault
   Disagreement disagreement(const PictureSupposition& supposed, const std::vector<SampledPixel>& pixels,
                             const std::vector<double>& off_if_right) const;
-  /// steps_off() of each of `pixels`.
+  /// How many steps each of `pixels` is off under the supposed faults.
   std::vector<double> steps_off(const PictureSupposition& supposed, const std::vector<SampledPixel>& pixels) const;
 
   /// What is predicted of one pixel. Faults that change the finished colour may act before the target stores it, or
@@ -106,9 +106,10 @@ class PictureCase {
   int channels() const { return std::min(color_.channels, 4); }
   /// steps_off() of one channel; it does not ask whether the pixel is in a stale tile.
   double steps_off(const PictureSupposition& supposed, const Prediction& predicted, int x, int y, int channel) const;
-  /// The number to report as predicted: the captured one where it agrees with the prediction, else predicted.stored.
+  /// The number to report as predicted: the captured one where it agrees with the prediction or the tile is stale, else
+  /// predicted.stored.
   double shown(const PictureSupposition& supposed, const Prediction& predicted, int x, int y, int channel) const;
-  /// Whether the pixel is in a tile that is supposed to be stale.
+  /// Whether the pixel lies in a tile that the supposition takes for stale.
   bool in_stale_tile(const PictureSupposition& supposed, int x, int y) const;
   /// Whether the sample's captured codes differ from the predicted values as dithering makes them differ. For targets
   /// of codes that are stored once, not blended.

@@ -45,7 +45,7 @@ struct PictureFault {
   int tile = 0;      ///< side in pixels of tiles lit by a neighbour's light list; the parameter says which
   std::string (*says)(double) = nullptr;  ///< the parameter in words; null: the number
   int stale = 0;                          ///< side in pixels of tiles, a few of which hold something else
-  /// Of Search::one_light: changes the light by the vector; `start` is the vector that changes nothing.
+  /// For Search::one_light: changes the light by the vector. A vector of `start` changes nothing.
   void (*one_light)(Light&, const std::array<double, 3>& vector) = nullptr;
   bool (*of_light)(const Light&) = nullptr;                               ///< whether the light can have the fault
   double start = 0;                                                       ///< of each component
@@ -65,7 +65,7 @@ struct PictureFault {
 /// The values from which the search for a factor starts.
 inline constexpr double kFactorsNearOne[] = {0.5, 0.9, 0.99, 1.01, 1.1, 2};
 
-/// Whether the target's texels are codes.
+/// Whether the target holds unorm codes.
 inline bool holds_codes(const LightPass& p) { return info(p.pipeline.target).number_class == NumberClass::unorm; }
 
 /// Faults of what is done to the picture after it is lit (picture_faults.cpp).

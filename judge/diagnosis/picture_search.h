@@ -3,7 +3,7 @@
 
 namespace trueshade::oracle {
 
-/// A fault with its parameter.
+/// A fault of the picture, with its parameter.
 struct NamedFault {
   const PictureFault* fault = nullptr;
   FaultParameter parameter;

@@ -16,7 +16,7 @@ namespace trueshade::oracle {
 /// double arithmetic.
 class PlainProgram {
  public:
-  /// The pipeline's program.
+  /// Prepares the pipeline's light program.
   PlainProgram(const Scene& scene, const Pipeline& pipeline);
   /// Takes another program for the same frame.
   PlainProgram(const Scene& scene, const Pipeline& pipeline, programs::Program program);
@@ -28,7 +28,7 @@ class PlainProgram {
   using Values = std::vector<double>;
   /// Computes `values` for a surface that is seen from the eye of `camera`.
   void look_at(const PlainSurface& surface, const Camera& camera, Values& values) const;
-  /// The same from a ShadedSurface, whose errors are not read.
+  /// Computes `values` for a surface whose errors are ignored, seen from the eye of `camera`.
   void look_at(const ShadedSurface& surface, const Camera& camera, Values& values) const;
   /// What start() returns: R, G, B that the sum of the lights starts from.
   Triple3 start(const Values& values) const { return three(programs::kStartOutput, values); }
@@ -46,8 +46,8 @@ class PlainProgram {
   programs::Program program_;
   Values first_;  ///< constants, and what holds for the frame
   std::vector<programs::NodeId> of_frame_, of_surface_, of_light_, of_sum_;
-  /// The nodes of of_light_ that lights of each type need: choices that go by the type leave the rest out. All of a
-  /// type that the scene does not have.
+  /// For each type of light, the nodes of of_light_ that such a light needs: choices by the type leave the rest out.
+  /// All nodes for a type that the scene does not have.
   std::array<std::vector<programs::NodeId>, std::size(kLightTypes)> of_type_;
   std::vector<std::pair<programs::NodeId, SurfaceField>> surface_inputs_;
   std::vector<std::pair<programs::NodeId, LightField>> light_inputs_;

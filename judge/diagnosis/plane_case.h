@@ -43,18 +43,19 @@ class PlaneCase {
   int planes() const;
   /// What a plane's channel should hold at the pixel under the supposed faults: a code, rounded, or a float.
   double predicted(const PlaneSupposition& supposed, Plane plane, int x, int y, int channel) const;
-  /// What a right renderer's planes hold at a pixel.
+  /// What a right renderer's planes hold at the pixel.
   ExpectedPixel expected(int x, int y) const { return right_->at(x, y); }
   /// The scene, which is borrowed.
   const Scene& scene() const { return scene_; }
-  /// What a right renderer's planes hold.
+  /// What a right renderer's planes hold at all pixels.
   std::shared_ptr<const ExpectedPlanes> expected() const { return right_; }
   /// What is captured and expected at the sampled pixels, for estimates of parameters. No pixel is marked as wrong. The
   /// result borrows this object.
   PlaneEvidence evidence() const;
 
  private:
-  /// What a plane should show at a pixel. `after`: the fault acts on numbers that the plane's format has rounded.
+  /// The numbers that a plane should show at a pixel under the supposed faults, which may move the pixel there.
+  /// `after`: the faults act on numbers that the albedo's format has rounded.
   ExpectedPixel changed(const PlaneSupposition& supposed, Plane plane, int x, int y, bool after) const;
   void encode(const PlaneFault& fault, double parameter, ExpectedPixel& p) const;
   PlaneValues given(int x, int y) const;

@@ -8,7 +8,7 @@
 
 namespace trueshade::oracle {
 
-/// A pixel of the sample as captured, and as expected.
+/// A sampled pixel: the numbers that the planes hold there, and those that they should hold.
 struct EvidentPixel {
   SampledPixel at;
   bool wrong = false;  ///< any plane is not as expected

@@ -11,7 +11,7 @@
 
 namespace trueshade::oracle {
 
-/// The planes that are compared, as captures name them; `all` stands for every one.
+/// The planes that are compared, in the order of kPlaneNames; `all` stands for every one.
 enum class Plane : uint8_t { depth, position, normal, albedo, uv, object, material, specular, emission, all };
 inline constexpr size_t kPlanes = 9;
 inline constexpr std::string_view kPlaneNames[] = {"depth",     "position",    "normal",   "albedo",   "uv",

@@ -10,7 +10,7 @@
 
 namespace trueshade::oracle {
 
-/// A fault with its parameter.
+/// A fault of the G-buffer, with its parameter.
 struct NamedPlaneFault {
   const PlaneFault* fault = nullptr;
   FaultParameter parameter;

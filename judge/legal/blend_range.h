@@ -15,16 +15,15 @@ using Texel = std::array<LegalTexel, 4>;
 /// The set that holds `stored` and nothing else.
 LegalTexel known_texel(double stored);
 
-/// What a pixel may hold once one fragment is blended or, where blending is off, stored; channels masked off stay as
-/// they are.
-///   source: of each channel, alpha last, before any clamp
+/// What a pixel may hold once one fragment is blended or, where blending is off, stored. Channels that are masked off
+/// keep what they may hold. A result that is NaN, which OpenGL leaves open (2.3.4), gives an infinite range.
+///   source: what the fragment may output in each channel, alpha last, before any clamp
 ///   stored: what the pixel may hold before
-/// By the profile's BlendRule. any_precision (GL 4.6 core, 17.3.6): sources, factors and constants clamped for fixed
-/// point; each of them, each product and the result may be a neighbour in the target's own format, or none rounded at
-/// all. Every step is the hull of an interval, so what is read twice (a destination that is a factor too) may come out
-/// wider than the set is; it never comes out narrower. sRGB targets: in linear values, those of codes within
-/// kSrgbDecodeError unless the profile is exact.
-/// A result that is not a number, which OpenGL leaves open (2.3.4), has an infinite range.
+/// The profile's BlendRule decides. any_precision (GL 4.6 core, 17.3.6): sources, factors and constants are clamped for
+/// fixed point; each of them, each product and the result may be a neighbour in the target's own format, or none
+/// rounded at all. Each step is the hull of an interval, so what is read twice (a destination that is a factor too) may
+/// come out wider than the set is; it never comes out narrower. sRGB targets are blended in linear values, each within
+/// kSrgbDecodeError of its code's unless the profile is exact.
 Texel blended_texel(const BlendState& state, Format format, const Profile& profile, const std::array<Range, 4>& source,
                     const Texel& stored);
 

@@ -21,9 +21,9 @@ class JudgedRows {
   bool all() const { return !some_; }
   /// For each band, from the top, whether it is judged (not 0); empty where all rows are.
   const std::vector<uint8_t>& bands() const { return bands_; }
-  /// Whether a band is judged.
+  /// Whether a band, counted from the top, is judged.
   bool has_band(int band) const { return !some_ || bands_[size_t(band)] != 0; }
-  /// Whether a row is judged.
+  /// Whether a row, counted from the top, is judged.
   bool has(int y) const { return has_band(y / kBand); }
 
  private:

@@ -10,7 +10,7 @@
 
 namespace trueshade::oracle {
 
-/// How many fragments of a light's mesh a pixel may have.
+/// How many fragments of a light's mesh a pixel may have: the least, the most, and the nominal number.
 struct FragmentCount {
   uint8_t least = 0, most = 0;
   uint8_t nominal = 0;     ///< the number if vertices are in the middle of their boxes

@@ -8,7 +8,7 @@
 
 namespace trueshade::oracle {
 
-/// What one draw's fragment shader may output.
+/// The colours that the fragment shader may output in one draw.
 struct LightOutput {
   std::array<Range, 4> nominal, other;  ///< RGBA before any clamp of the target; `other` where either_way
   bool either_way = false;              ///< a comparison of the shader may go to `other`
@@ -27,7 +27,8 @@ bool are_numbers(const std::array<Range, 4>& color);
 /// is named by its place in Scene::lights. The scene is borrowed.
 class LightOutputs {
  public:
-  /// Makes the light program, or the light model as one. Throws as ProgramBounds does.
+  /// Prepares the pipeline's light program or, where it has none, its light model as a program. Throws as ProgramBounds
+  /// does.
   LightOutputs(const Scene& scene, const Pipeline& pipeline, const Profile& profile);
 
   /// The output of the draw of one light.
@@ -61,7 +62,7 @@ class LightOutputs {
   /// The output of a light's draw whose colour before finish() is `color`, with no other outcome; alpha as in term().
   LightOutput of_color(const ShadedSurface& surface, const Bounded3& color) const;
 
-  /// The light program, or the light model as one.
+  /// The light program, or the program that stands for the light model.
   const ProgramBounds& program() const { return program_; }
   /// Whether what terms() gives is already the RGB that a draw outputs, because the program has no finish().
   bool are_terms_outputs() const { return !program_.program().defines_finish; }

@@ -6,9 +6,10 @@
 
 namespace trueshade::oracle {
 
-/// The shape of a piece, made once for all samples.
+/// What the interpolation of every attribute of a piece needs: gradients, extents and error bounds, the same at all
+/// samples.
 struct PieceShape {
-  /// reach: Projector::window_reach().
+  /// reach: Projector::window_reach(), pixels.
   PieceShape(const Piece& piece, const Profile& profile, const Pair& reach);
 
   /// A bound on the error of evaluating a plane through these three vertex values anywhere in the window; SurfacePoint

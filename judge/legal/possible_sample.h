@@ -31,14 +31,14 @@ bool is_kept(const GeometryState& state, double clear, PossibleSurface& surface,
 /// surfaces where the depth function does not order depths. For find_tied().
 bool may_be_left(const GeometryState& state, double clear, PossibleSurface& surface, double& limit);
 
-/// Whether the depth test tells surfaces apart by which is nearer or farther: LESS, LEQUAL, GREATER, GEQUAL.
+/// Whether a depth test keeps the nearer or the farther fragment: LESS, LEQUAL, GREATER, GEQUAL.
 bool orders_depths(DepthFunc func);
 
 /// Finds the surfaces that single pixels may show under the projector's profile. It looks only among those that were
 /// found under a looser profile, which gives the same as a search of all triangles. For one thread at a time.
 class NarrowedSurfaces {
  public:
-  /// Borrows both.
+  /// Borrows the projector and the cache of triangles.
   NarrowedSurfaces(const Projector& projector, TriangleForms& forms)
       : projector_(projector), forms_(forms), clear_(clear_key(projector.pipeline().geometry)) {}
 

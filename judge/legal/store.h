@@ -31,15 +31,18 @@ struct LegalTexel {
   bool contains(double stored) const { return (stored >= low && stored <= high) || is_open(); }
 };
 
-/// What a channel of `format` may hold for an output in `range`.
+/// What a channel of `format` may hold after the shader's output, anywhere in `range`, is stored.
 ///   Unorm: codes c with |c - largest x| <= reach (reach 1: < 1, GL 4.6 core 2.3.5.2), x clamped to [0, 1], the
-///   product's rounding to float included. sRGB: the same of the encoded value with Profile::srgb_reach; GL's own
-///   exponent of 0.41666 (17.3.7) is 0.002 off. Of llvmpipe the nominal code is its own (core/llvmpipe_srgb.h). Half:
-///   by the profile's mode, finite overflow to 65504 or infinity as the mode says. 11 and 10 bits: the same, but
-///   negative values are 0 and finite ones stay below infinity. Float: the range itself, ends moved outward to floats.
+///          product's rounding to float included
+///   sRGB: the same of the encoded value with Profile::srgb_reach; GL's own exponent of 0.41666 (17.3.7) is 0.002 off.
+///         For llvmpipe the nominal code is llvmpipe's own (core/llvmpipe_srgb.h)
+///   Half: by the profile's mode, finite overflow to 65504 or infinity as the mode says
+///   11 and 10 bits: as half, but negative values are 0 and finite ones stay below infinity
+///   Float: the range itself, its ends moved outward to floats
 /// An end of the range that is NaN counts as infinite. Where both ends are infinite, a float may hold NaN too.
 LegalTexel legal_texel(const Range& range, Format format, int channel, const Profile& profile);
-/// What a channel of 32-bit floats, or of integers, may hold: the range itself, ends moved outward to floats.
+/// What a channel of 32-bit floats, or of integers, may hold for an output in `range`: all of the range, with its ends
+/// moved outward to floats.
 LegalTexel legal_float(const Range& range);
 
 /// The profile with the rule's way to store and to blend put in wherever the profile leaves it open.

@@ -37,14 +37,14 @@ namespace trueshade::oracle {
 /// added where the profile has those.
 class SurfacePoint {
  public:
-  /// Where planes are looked at: over the whole box that legal vertices allow, or at its middle alone, which costs less
-  /// and gives a part of each range.
+  /// Which places of the vertices are taken into account: all that are legal (box), or the middle of their boxes alone,
+  /// which costs less and gives a part of each range.
   enum class Within : uint8_t { box, middle };
 
   /// reach: the X and Y above, Projector::window_reach().
   SurfacePoint(const Piece& piece, const Profile& profile, const Pair& reach, double x, double y);
 
-  /// The same with the piece's shape at hand, which many samples of the piece share. Borrows the piece and its shape.
+  /// Takes the piece's shape, which many samples of the piece share. Borrows the piece and its shape.
   SurfacePoint(const Piece& piece, const PieceShape& shape, const Profile& profile, double x, double y,
                Within within = Within::box);
   SurfacePoint(const SurfacePoint&) = delete;
@@ -56,7 +56,7 @@ class SurfacePoint {
     return bounded_ || tiny_ == Tiny::hull || (tiny_ == Tiny::hull_and_plane && unsnapped_->bounded_);
   }
 
-  /// Window depth before any offset and clamp.
+  /// The window depth at the sample, before polygon offset and clamping.
   Range depth() const;
 
   /// What glPolygonOffset adds to the depth (GL 4.6 core, 14.6.5): m factor + r units. m lies between the larger slope
@@ -67,10 +67,11 @@ class SurfacePoint {
   Range depth_offset(const GeometryState& state, double largest) const;
 
   /// An attribute at the sample; kAnyValue where nothing bounds it.
-  ///   value, error: at the three vertices of the piece
+  ///   value, error: the attribute at the piece's three vertices, and how far it may be off there
   Range attribute(const std::array<double, 3>& value, const std::array<double, 3>& error,
                   Interpolation interpolation) const;
-  /// The same of an attribute whose vertex values and plane error are known.
+  /// An attribute at the sample, of which the vertex values and the error of their plane are known; kAnyValue where
+  /// nothing bounds it.
   Range attribute(const VertexAttribute& vertices, Interpolation interpolation) const;
 
  private:
@@ -122,7 +123,7 @@ struct TriangleValues {
   std::array<VertexValues, 3> value{}, error{};
 };
 
-/// The attributes of a triangle as its vertex shader makes them.
+/// The attributes of a triangle's three vertices as its vertex shader may output them, with bounds on the error.
 TriangleValues triangle_values(const Projector& projector, uint32_t instance, uint32_t triangle);
 
 /// Sets `value` and `error` to attribute `index` (a ValueIndex plus a component) at the three vertices of a piece: sums

@@ -21,10 +21,10 @@ using SurfaceTexels = std::array<std::optional<std::array<Range, 4>>, kMaterialM
 /// material makes of that. Borrows the projector.
 class SurfaceValues {
  public:
-  /// Makes the triangle's form, and looks its material's maps up.
+  /// Computes the triangle's form, and looks up its material's maps.
   SurfaceValues(const Projector& projector, const PossibleSurface& possible, double x, double y);
 
-  /// The same of a triangle whose form is known.
+  /// Takes a triangle whose form is known.
   ///   texels: what the maps give, where that is known already; null: they are looked up
   SurfaceValues(const Projector& projector, std::shared_ptr<const TriangleForm> form, const PossibleSurface& possible,
                 double x, double y, SurfacePoint::Within within = SurfacePoint::Within::box,

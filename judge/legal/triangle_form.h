@@ -15,14 +15,14 @@ namespace trueshade::oracle {
 /// some of it is made when it is first asked for.
 class TriangleForm {
  public:
-  /// Makes the pieces, their shapes and the vertices' values. Borrows the projector.
+  /// Computes the pieces, their shapes and the vertices' values. Borrows the projector.
   TriangleForm(const Projector& projector, uint32_t instance, uint32_t triangle);
 
-  /// Projector::pieces() of the triangle.
+  /// The triangle's pieces, from Projector::pieces().
   const std::vector<Piece>& pieces() const { return pieces_; }
-  /// The shape of a piece.
+  /// The shape of one of the pieces.
   const PieceShape& shape(size_t piece) const { return forms_[piece].shape; }
-  /// triangle_values() of the triangle.
+  /// The vertices' attributes, from triangle_values().
   const TriangleValues& values() const { return values_; }
 
   /// An attribute's values at the vertices of a piece, as `interpolation` needs them; not for flat.

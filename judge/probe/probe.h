@@ -30,7 +30,7 @@ struct ProbedField {
   std::string against;  ///< the frame that speaks against the next tighter value; empty where there is none
 };
 
-/// What was found of a driver.
+/// What the frames of a driver tell of its profile.
 struct ProbeResult {
   Profile profile;
   std::vector<ProbedField> fields;

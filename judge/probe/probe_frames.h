@@ -8,7 +8,7 @@
 
 namespace trueshade::oracle {
 
-/// A frame to be drawn by the driver that is probed.
+/// A frame that the probed driver is asked to draw.
 struct ProbePlan {
   std::string name;  ///< `shards into rgba16f`
   Scene scene;

@@ -17,7 +17,7 @@ class CapturedSurface {
 
   /// Whether the pixel shows a surface, as id.object tells or, without that plane, the depth.
   bool covered(int x, int y) const;
-  /// The surface as the light pass reads it; where there is none, what the planes hold there.
+  /// The pixel's surface as the light pass reads it. Where no surface is, whatever the planes hold there.
   ShadedSurface at(int x, int y) const;
 
   /// The alpha that the light pass outputs for a surface, before the target clamps it: the albedo's, or 1.
@@ -47,7 +47,8 @@ class CapturedSurface {
   Matrix4 world_from_clip_{};
 };
 
-/// Throws Error(bad_input) naming a plane that a light program reads and the capture lacks.
+/// Throws Error(bad_input), naming the plane, if a light program reads id.material or id.object and the capture lacks
+/// it.
 void require_planes_of(const ProgramBounds& program, const Capture& capture);
 
 /// A normal's component as shaders compute it from a fixed-point plane: 2 c - 1, c what they fetch. Doubling is exact,

@@ -14,7 +14,7 @@ struct Evidence {
   bool as_stated = true;  ///< `rule` is the one that profile and pipeline state
   bool against = false;   ///< the image follows no known rule
 
-  /// The test with the smallest chance.
+  /// The test whose chance is the smallest.
   const AggregateTest& least_likely() const { return oracle::least_likely(tests); }
 };
 

@@ -13,7 +13,7 @@
 
 namespace trueshade::oracle {
 
-/// A plane whose values are interpolated.
+/// A plane of the capture whose values are interpolated over triangles.
 struct AttributePlane {
   const char* name;
   PlaneView view;
@@ -58,9 +58,9 @@ struct GBufferMemory {
 /// Judges the surfaces of one capture by one profile. Borrows the scene, the capture and `wider`.
 class GBufferJudge {
  public:
-  /// Finds the possible surfaces of the rows, unless `wider` has them. Throws as judge_gbuffer().
-  /// wider: possible surfaces by a profile that allows all of this one; null: they are looked for here.
-  /// hulls: of the scene's textures; null where none are known.
+  /// Finds the surfaces that the pixels of the rows may show, unless `wider` gives them. Throws as judge_gbuffer().
+  ///   wider: surfaces found under a profile that allows all that `profile` allows; null: there are none
+  ///   hulls: of the scene's textures, as another judge found them; null: there are none
   GBufferJudge(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
                const JudgedRows& rows, Asked asked, const PossibleSurfaces* wider, std::shared_ptr<LevelHulls> hulls);
 
@@ -77,7 +77,7 @@ class GBufferJudge {
     return size_t(pipeline_.height - 1 - y_top) * size_t(pipeline_.width) + size_t(x);
   }
 
-  /// Whether a depth key is sure to pass the test against the clear value.
+  /// Whether a fragment with this depth key surely passes the depth test against the clear value.
   bool passes_clear(double key) const {
     const GeometryState& g = pipeline_.geometry;
     const bool equal_passes = g.depth_func == DepthFunc::lequal || g.depth_func == DepthFunc::gequal;

@@ -15,7 +15,7 @@ struct Hypothesis {
   uint64_t surfaces = 0;           ///< pixels of the G-buffer's stage
   std::optional<uint64_t> lights;  ///< pixels of the target's stage; nothing where that stage is not judged
 
-  /// Pixels of both stages.
+  /// How many pixels of both stages contradict the guess.
   uint64_t violations() const { return surfaces + lights.value_or(0); }
 };
 
@@ -49,7 +49,7 @@ JudgedRows sampled_rows(int width, int height);
 ///   before: what that judgement found, for speed alone; may be null
 Inference infer_profile(const Scene& scene, const Pipeline& pipeline, const Capture& capture,
                         std::span<const StageVerdict> judged = {}, const JudgedBefore* before = nullptr);
-/// The same, beginning with a given sample of rows.
+/// Finds the tightest profile that explains a capture, beginning with this sample of rows.
 Inference infer_profile(const Scene& scene, const Pipeline& pipeline, const Capture& capture, const JudgedRows& sample,
                         const JudgedBefore* before = nullptr);
 

@@ -21,27 +21,27 @@ struct FoundSurfaces {
   std::shared_ptr<LevelHulls> level_hulls{};  ///< of the scene's textures, whatever the profile
 };
 
-/// Judges the G-buffer planes of `capture` (those of depth, position, normal, albedo, uv, id.object, id.material that
-/// it has, and specular and emission where the light model reads them) against the surfaces each pixel may show. A
-/// pixel must equal one possible surface in all planes together, or the clear values where nothing is sure to cover it.
-/// Transparent surfaces are none of these; into-albedo blends them into the plane albedo alone, which must be one that
-/// their draws may leave (where nothing opaque is, nobody reads it: it may also be clear). An edge shared by two
-/// triangles has exactly one owner: where triangles that meet about a sample close around it, the clear value and what
-/// is behind them are not legal. Half planes follow the profile's mode; `ideal` follows the pipeline's half_round.
-/// Throws Error(bad_input) for planes of another size than the pipeline's, or none at all.
-///   rows:  the verdict counts these alone
-///   found: where it is not null, what was found in these rows is left there
+/// Judges the G-buffer planes of `capture` against the surfaces that each pixel may show: those of depth, position,
+/// normal, albedo, uv, id.object and id.material that it has, and specular and emission where the light model reads
+/// them. A pixel must equal one possible surface in all planes together, or the clear values where no surface surely
+/// covers it. An edge shared by two triangles has exactly one owner: where triangles that meet about a sample close
+/// around it, the clear value and what is behind them are not legal. Surfaces that are blended as transparent are not
+/// possible surfaces; under into-albedo the plane albedo alone must hold a value that their draws may leave, or the
+/// clear value where nothing opaque is. Half planes follow the profile's mode; `ideal` follows the pipeline's
+/// half_round. Error(bad_input) for planes of another size than the pipeline's, or none.
+///   rows:  the rows to judge; the verdict counts no others
+///   found: if not null, gets the possible surfaces and texture hulls that were found
 StageVerdict judge_gbuffer(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
                            const JudgedRows& rows = {}, FoundSurfaces* found = nullptr);
 
 /// Judges the target against the lights summed over the capture's own planes, in double, with the error bound of
 /// docs/gl_rules.md section 6. Needs position (or depth, under position_from_depth), normal and albedo; id.object or
-/// depth tell where there is a surface. light.count, where captured, must be one the comparisons allow.
-/// Surfaces transparent after the lights are followed, each fragment from what the pixel may hold before it.
-/// Under strategies that blend light by light: the final image against the interval of all blends (judge_blending.h),
-/// and light.count is not looked at.
-/// Throws Error(bad_input) naming the plane that is missing or of another size.
-/// `rows` as for judge_gbuffer().
+/// depth tell where there is a surface. light.count, where captured, must be a number that the comparisons allow.
+/// Surfaces that are transparent after the lights are followed, each fragment from what the pixel may hold before it.
+/// Under strategies that blend light by light the final image is judged against the interval of all blends
+/// (judge_blending.h), and light.count is ignored. Error(bad_input), naming the plane, where one is missing or has
+/// another size than the pipeline's.
+///   rows:  the rows to judge; the verdict counts no others
 StageVerdict judge_lighting(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                             const Capture& capture, const JudgedRows& rows = {});
 

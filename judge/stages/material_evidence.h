@@ -23,7 +23,7 @@ struct MaterialEvidence {
                                ///< 0 or 1
   double error = 0;            ///< its standard deviation
   double least = 0;            ///< the smallest |value| that the test would notice
-  bool is_of_channel = false;  ///< tested by single channels too, not only by the plane as a whole
+  bool is_of_channel = false;  ///< of one channel of a plane that is also tested as a whole
   bool against = false;        ///< no known implementation makes it: the test fails
 
   /// The material in words: `material 3 (floor)`.

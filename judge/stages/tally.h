@@ -21,9 +21,9 @@ struct PlaneView {
   const DecodedPlane* decoded = nullptr;  ///< where the values are unpacked ones
 
   PlaneView() = default;
-  /// Borrows the image; null: an empty view, of which nothing but operator bool is asked.
+  /// Views an image, which it borrows. Of null it makes an empty view, on which only operator bool may be called.
   explicit PlaneView(const Image* i);
-  /// Whether there is a plane.
+  /// Whether the view has a plane.
   explicit operator bool() const { return image != nullptr; }
   /// What a channel holds: a code, a float or an integer. y from the top.
   double stored(int x, int y, int channel) const {
@@ -35,11 +35,13 @@ struct PlaneView {
   }
   /// Whether channels hold unorm codes.
   bool unorm() const { return layout.number_class == NumberClass::unorm; }
-  /// DecodedPlane::reading_error of a component; 0 of a plane that is as it was stored. y from the top.
+  /// How far what a shader unpacks may be from the pixel's unpacked value (DecodedPlane::reading_error); 0 for a plane
+  /// that was not packed. y from the top.
   double reading_error(int x, int y) const {
     return decoded == nullptr ? 0 : decoded->at(decoded->reading_error, pixel(x, y));
   }
-  /// DecodedPlane::packing_error of a component; 0 of a plane that is as it was stored. y from the top.
+  /// How far storing the packed value may have moved the pixel's value (DecodedPlane::packing_error); 0 for a plane
+  /// that was not packed. y from the top.
   double packing_error(int x, int y) const {
     return decoded == nullptr ? 0 : decoded->at(decoded->packing_error, pixel(x, y));
   }
@@ -69,7 +71,7 @@ std::string channel_of(std::string_view plane, int channel);
 /// is not the pipeline's.
 PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string_view name);
 
-/// The target. Error(bad_input) if there is none, or its size is not the pipeline's.
+/// The capture's target, the plane `color`. Error(bad_input) if there is none, or its size is not the pipeline's.
 PlaneView target_of(const Capture& capture, const Pipeline& pipeline);
 
 /// One store that rounded, for comparison with the same store of the next pixel.
@@ -104,11 +106,12 @@ struct Match {
   /// had.
   void channel_is(const PlaneView& view, const char* name, int channel, const Range& range, double stored,
                   uint32_t pixel, const Profile& profile);
-  /// The same of a channel whose value comes from a texture lookup: another legal value sets `tex`, and no rounding is
-  /// noted.
+  /// Judges one channel whose value comes from a texture lookup, as channel_is() does, but another legal value than the
+  /// nominal one sets `tex`, and no rounding is noted.
   void lookup_is(const PlaneView& view, const char* name, int channel, const Range& range, double stored,
                  uint32_t pixel, const Profile& profile);
-  /// The same of a channel whose legal values are known; `value` is the real number before the store.
+  /// Judges one channel, as channel_is() does, whose legal values `texel` are known. `value`: the real number before
+  /// the store.
   void texel_is(const PlaneView& view, const char* name, int channel, const LegalTexel& texel, double value,
                 double stored, uint32_t pixel, const Profile& profile);
   /// Sets `legal` to false, and keeps the channel if it is the farthest outside so far; NaN is infinitely far.
@@ -128,7 +131,7 @@ inline bool is_told(PixelClass c) { return c != PixelClass::exact && c != PixelC
 /// image, some 24,000 of a large one.
 bool is_sampled(uint32_t pixel, int width, int height);
 
-/// One row's share of a verdict.
+/// What was found in one row of an image, to be added up by verdict_of().
 struct RowTally {
   std::vector<PixelClass> classes;
   uint64_t covered = 0, ambiguous = 0, stored_values = 0, stored_apart = 0;

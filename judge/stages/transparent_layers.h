@@ -29,7 +29,7 @@ struct TransparentLayer {
   float chance_other = 0;
 };
 
-/// The layers of one pixel, in order of submission, and their patches.
+/// The transparent fragments of one pixel, in order of submission, and their closed patches.
 struct TransparentPixel {
   std::vector<TransparentLayer> layers;
   std::vector<int> turns;  ///< of each patch: the sum of the senses of its triangles that have the sample (patch.h)
@@ -69,13 +69,13 @@ class TransparentLayers {
                     const JudgedRows& rows = {});
   ~TransparentLayers();
 
-  /// Whether any fragment may be at the pixel; y from the top.
+  /// Whether any transparent fragment may be at the pixel; y from the top.
   bool any(int x, int y) const;
 
   /// The fragments of instances [first, end) that may be seen at a pixel, with their colours; y from the top. The
   /// colours are albedos under into-albedo, and lit colours under after-lights.
   TransparentPixel at(int x, int y, uint32_t first, uint32_t end) const;
-  /// The fragments of all instances.
+  /// The fragments of all instances at the pixel.
   TransparentPixel at(int x, int y) const { return at(x, y, 0, ~uint32_t(0)); }
 
   /// What the pixel holds after each way of drawing the layers onto `from`, the nominal way first. Triangles of a

@@ -12,7 +12,7 @@
 
 namespace trueshade::oracle {
 
-/// How a capture is judged.
+/// How validate_capture() judges a capture.
 struct ValidateOptions {
   Profile profile;             ///< what is promised; by default what OpenGL promises with 4 subpixel bits
   bool infer = false;          ///< also find the tightest profile: judgements of some rows, and one or two more of all
@@ -23,7 +23,7 @@ struct ValidateOptions {
   bool surfaces = true;  ///< false: the G-buffer is taken as it is, and only what lights make of it is judged
 };
 
-/// Everything there is to say about a capture.
+/// The result of validate_capture().
 struct Verdict {
   std::string scene, driver;
   std::string profile;
@@ -39,7 +39,8 @@ struct Verdict {
   bool rounds_unlike_any() const;  ///< some stage's stores or surfaces are not what any known rounding makes
   bool convicted() const;          ///< legal pixel by pixel, yet no implementation that is known makes such an image
   bool suspicious() const;         ///< convicted, or stores follow another known rule than the one that is stated
-  /// The strongest evidence in one line: what was seen, what is expected at most, how likely that is.
+  /// The strongest evidence against the capture in one line: what was counted, what is expected at most, and how likely
+  /// that is. Empty where there is none.
   std::string evidence_line() const;
 
  private:

@@ -53,7 +53,7 @@ struct SurfaceChoice {
   float chance;      ///< predicted that another is shown
 };
 
-/// A pixel that shows its nominal surface, whose material has maps.
+/// A pixel that shows the nominal surface, one whose material has maps.
 struct TexturedPixel {
   uint32_t pixel;  ///< y * width + x, y from the top
   PossibleSurface surface;
@@ -100,7 +100,7 @@ struct StageVerdict {
                               ///< each by itself; 0 where nothing is lit, 1 where it may be off by more
   std::vector<float> excess;  ///< WorstPixel::excess of each pixel, 0 of legal ones; empty: there is no violation
 
-  /// How many pixels were judged.
+  /// How many pixels were judged, not left out.
   uint64_t judged() const { return classes.size() - left_out; }
   /// How many pixels have this class.
   uint64_t count(PixelClass c) const { return counts[size_t(c)]; }
