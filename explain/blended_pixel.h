@@ -5,17 +5,17 @@
 
 namespace trueshade {
 
-/// A pixel in a target's stored form, as blend_pixels() has it: codes as floats, or the floats themselves.
+/// A pixel in a target's stored form, as blend_pixels() takes it: unorm codes as floats, or the floats themselves.
 using StoredPixel = std::array<float, 4>;
 
-/// What a pixel that holds `stored` holds after one draw of `source`: blend_pixels() for one pixel.
+/// What a pixel holds after a draw with this source colour, if it held `stored` before: blend_pixels() for one pixel.
 StoredPixel after_draw(const BlendState& state, const BlendTarget& target, const std::array<float, 4>& source,
                        const StoredPixel& stored);
 
-/// What a draw of `source` without blending stores.
+/// What a pixel holds after a draw with this source colour without blending.
 StoredPixel stored_alone(const BlendTarget& target, const std::array<float, 4>& source);
 
-/// What a shader reads of a stored pixel: R, G, B, A.
+/// The R, G, B, A that a shader reads from a stored pixel.
 std::array<float, 4> values_of(const BlendTarget& target, const StoredPixel& stored);
 
 }  // namespace trueshade

@@ -10,12 +10,13 @@
 
 namespace trueshade {
 
-/// What the depth test and the alpha test made of a covering fragment.
+/// What the depth test and the alpha test did with a fragment that covers the pixel's sample.
 struct DepthOutcome {
-  float there = 0;             ///< the depth that the fragment is compared with
+  float there = 0;             ///< the depth that the fragment's is compared with
   bool passes = false;         ///< the depth test
-  std::optional<float> alpha;  ///< what the cutoff is compared with; nothing where the test was not asked
-  bool drawn = false;          ///< passes both
+  std::optional<float> alpha;  ///< the alpha that the cutoff is compared with; nothing where there is no such test, or
+                               ///< it was not reached
+  bool drawn = false;          ///< it passes both tests
 };
 
 /// Everything that happened at one pixel, as numbers.
@@ -34,25 +35,25 @@ struct PixelHistory {
   StoredPixel stored{};           ///< what the target holds at last
 };
 
-/// Follows one pixel through the frame; (x, y) counts from the top left of the picture. Asks every triangle of the
-/// scene, and every light. Error(usage) for a pixel that is not in the picture. The stored pixel is what render_frame()
-/// stores, bit for bit (tests/explain).
+/// Draws one pixel with all its steps kept; (x, y) counts from the top left of the picture. Visits every triangle of
+/// the scene, and every light. Error(usage) for a pixel that is not in the picture. The stored pixel is what
+/// render_frame() stores, bit for bit (tests/explain).
 PixelHistory history_of(const ExplainedFrame& frame, int x, int y);
 
-/// The surfaces of a history as lit_surfaces() takes them: the visible one, tied ones, and glass, the latter only where
-/// it is blended after the lights.
+/// The surfaces of a history in the form that lit_surfaces() takes: the visible one, tied ones, and transparent ones
+/// (glass) only where they are blended after the lights.
 PixelSurfaces surfaces_to_light(const ExplainedFrame& frame, const PixelHistory& history);
 
-/// A stored pixel as its format has it: whole codes, or floats, for each channel that the format has.
+/// The channels of a stored pixel that its format has: unorm codes as integers, others as floats.
 std::vector<AccountValue> values_in_format(Format format, const StoredPixel& stored);
 
-/// How much of a history its account holds.
+/// How much of a history goes into its account.
 enum class Detail : uint8_t {
   usual,  ///< the 64 lights that add most, the 64 covering triangles drawn last; draws that change something
   all     ///< every covering triangle, every light and every draw
 };
 /// A history in words, for people and programs: triangles, surface, lights, draws. The last quantity is the stored
-/// pixel. What `detail` leaves out is counted.
+/// pixel. What `detail` leaves out is only counted.
 Account account_of(const ExplainedFrame& frame, const PixelHistory& history, Detail detail = Detail::usual);
 
 }  // namespace trueshade

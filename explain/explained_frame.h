@@ -11,29 +11,29 @@
 
 namespace trueshade {
 
-/// The lights of a frame, and what they add.
+/// The lights of a frame in the form in which a surface is lit.
 struct FrameLights {
   LightTable table;
   std::shared_ptr<const ProgramFrame> program;
-  bool takes_albedo_alpha;  ///< where the program does not say what alpha is
+  bool takes_albedo_alpha;  ///< alpha is the albedo's, as the program does not set it
 };
 
-/// What every pixel's explanation reads of a frame, made once. `pipeline` is without post chain and
-/// view: what is explained is the target.
+/// What the explanation of any pixel needs of a frame, computed once. Its pipeline has neither post chain nor view, as
+/// the target is explained, not the finished picture.
 struct ExplainedFrame {
   const Scene& scene;
   Pipeline pipeline;
   View view;
   LightProgram light_program;  ///< the pipeline's, or its light model as a program
   FrameLights lights;          ///< bounded as the strategy draws them
-  FrameLights glass_lights;    ///< bounded by their analytic extents, as transparent fragments are lit
+  FrameLights glass_lights;    ///< ended by their analytic extents, as transparent fragments are lit
   LightMeshes meshes;
-  GeometryState volume_state;     ///< that light geometry is drawn with
-  WindowTransform volume_window;  ///< of it
+  GeometryState volume_state;     ///< the state that lights' meshes are drawn with
+  WindowTransform volume_window;  ///< the window transform of lights' meshes
   BlendTarget target;
-  TransparencyMode transparency;  ///< none too where the scene has no transparent surface
+  TransparencyMode transparency;  ///< none also where the scene has no transparent surface
 
-  /// Borrows the scene. Makes the view of all instances and both tables of the lights.
+  /// Borrows the scene. Transforms all instances, and makes both tables of lights.
   ExplainedFrame(const Scene& of_scene, const Pipeline& of_pipeline);
 };
 

@@ -13,7 +13,7 @@ struct WindowPixel {
   int x, y;
 };
 
-/// What became of a triangle at a pixel.
+/// What became of a triangle at a pixel: the first reason why it does not cover the sample, or `covers`.
 enum class Fate : uint8_t {
   elsewhere,     ///< its box, two pixels wider, does not hold the sample; nothing more was asked
   not_finite,    ///< a corner has a clip coordinate that is no number or infinite
@@ -25,8 +25,9 @@ enum class Fate : uint8_t {
 };
 inline constexpr size_t kFates = 7;
 
-/// The edge functions of a window triangle at a sample, corners in canonical order, signs turned so that the area is
-/// positive; and how they grow by a pixel to the right and up. In 1/65536 pixel^2. docs/arithmetic.md section 4.
+/// The three edge functions of a triangle at a sample, in 1/65536 pixel^2, and how much they grow from one pixel to the
+/// next on the right and above. Corners are in canonical order, and signs are turned so that the area is positive
+/// (docs/arithmetic.md section 4).
 struct EdgeValues {
   std::array<int, 3> order;  ///< corner of the window triangle that is canonical corner i
   std::array<__int128, 3> e, across, up;
@@ -37,66 +38,67 @@ struct EdgeValues {
   bool covers() const;
 };
 
-/// The edge functions of a window triangle whose coordinates are relative to the sample.
-///   upper_left: the window's origin, which decides what edges own
+/// The edge functions at the sample, which is the origin of the triangle's window coordinates.
+///   upper_left: whether the window's origin is there, which decides what edges own
 EdgeValues edge_values(const WindowTriangle& triangle, bool upper_left);
 
-/// How far a window triangle, whose coordinates are relative to the sample, is from the sample: pixels, 0 inside.
+/// The distance of a triangle from the sample, which is the origin of its window coordinates: pixels, 0 inside.
 double distance_to(const WindowTriangle& triangle);
 
-/// One triangle near a pixel.
+/// What became of one triangle at a pixel, with the numbers of its fragment as far as they were computed.
 struct PixelFragment {
   uint32_t instance = 0, triangle = 0;  ///< indices into the scene's instances and the mesh's triangles
   Fate fate = Fate::beside;
   ClipVertex clip[3];      ///< of the corners as submitted
   ClippedFan fan;          ///< window coordinates are relative to the sample
-  int piece = 0;           ///< of the fan, whose values count
+  int piece = 0;           ///< index in the fan of the piece whose values count
   EdgeValues edges{};      ///< of that piece
   double distance = 0;     ///< of the sample from the nearest piece, pixels; 0 where it is covered
-  double plane_depth = 0;  ///< of the piece's plane, with its polygon offset, clamped
-  double offset = 0;       ///< of it the polygon offset
+  double plane_depth = 0;  ///< window depth on the piece's plane, with polygon offset, clamped
+  double offset = 0;       ///< the polygon offset within plane_depth
   float depth = 0;         ///< what the depth test compares
 };
 
-/// A triangle that covers the sample. There may be millions; fragment_of() gives the rest.
+/// A triangle that covers the sample. There may be millions, so the rest is left to fragment_of().
 struct CoveringTriangle {
   uint32_t instance, triangle;
   float depth;  ///< what the depth test compares
 };
 
-/// The triangles of some instances at a pixel.
+/// What became of the triangles of some instances at a pixel: how many had each Fate, and which ones matter.
 struct PixelTriangles {
   std::array<uint64_t, kFates> count{};
   std::vector<CoveringTriangle> covering;  ///< in the order of submission
-  /// The triangles that lie within two pixels of the sample but do not cover it, at most eight, the nearest first.
+  /// Triangles beside the sample, within two pixels of it: at most eight, the nearest first.
   std::vector<PixelFragment> nearest;
   std::vector<PixelFragment> culled;  ///< those that would cover it if they were not culled, the first eight
 };
 
-/// Which surfaces: opaque, or transparent where the frame draws these apart.
+/// Which of a frame's surfaces: opaque ones, or transparent ones where the frame draws these separately.
 enum class Surfaces : uint8_t { opaque, transparent };
 
 /// What became of each triangle of the opaque instances, or of the transparent ones, at a pixel. Where the frame draws
-/// transparent surfaces like the others, all instances are opaque. Time grows with the number of triangles.
+/// transparent surfaces like any others, all instances are opaque. Visits every triangle.
 PixelTriangles triangles_at(const ExplainedFrame& frame, WindowPixel pixel, Surfaces which);
 
-/// A triangle's fragment, with all numbers; those that its fate leaves open are at their defaults.
+/// What became of one triangle at a pixel. Numbers that its fate leaves unknown have their defaults.
 PixelFragment fragment_of(const ExplainedFrame& frame, uint32_t instance, uint32_t triangle, WindowPixel pixel);
-/// The fragment of a triangle that covers the sample.
+/// The numbers of the fragment of a triangle that covers the sample.
 inline PixelFragment fragment_of(const ExplainedFrame& frame, const CoveringTriangle& of, WindowPixel pixel) {
   return fragment_of(frame, of.instance, of.triangle, pixel);
 }
 
-/// What became of a triangle with these corners, drawn with a state, and its fragment; `instance` and `triangle` are
-/// left 0. A pixel outside the window's bounds is beside every triangle.
+/// What became of a triangle with these clip coordinates, drawn with this state; `instance` and `triangle` stay 0. No
+/// triangle covers a pixel outside the window's bounds.
 PixelFragment fragment_at(const ClipVertex clip[3], const WindowTransform& window, const GeometryState& state,
                           WindowPixel pixel);
 
-/// Whether a triangle's box surely leaves the sample out: a quick answer; false where it takes more to tell, as of
-/// corners behind the eye and of such that are not finite.
+/// A quick test whether a triangle's window bounds exclude the pixel. False where this takes more work to tell, as with
+/// corners behind the eye or corners that are not finite.
 bool surely_elsewhere(const ClipVertex clip[3], const WindowTransform& window, WindowPixel pixel);
 
-/// The clip position of a point: docs/arithmetic.md section 2. `rows` has four rows of four.
+/// Transforms a point to clip coordinates (docs/arithmetic.md section 2).
+///   rows: the matrix, row after row, 16 floats
 ClipVertex clip_position(const float* rows, const float point[3]);
 
 }  // namespace trueshade

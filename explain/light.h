@@ -21,29 +21,29 @@ enum class LightFate : uint8_t {
 };
 inline constexpr size_t kLightFates = 7;
 
-/// A fate in words, as the account has it: `out of reach`.
+/// The text of a fate in accounts: `out of reach`.
 std::string_view text(LightFate fate);
 
-/// What a light adds to a pixel: docs/arithmetic.md section 8 or docs/light_programs.md.
+/// What one light adds to a surface (docs/arithmetic.md section 8 or docs/light_programs.md).
 struct LightAtPixel {
   LightFate fate = LightFate::adds;
   float d = 0;                  ///< distance of a point or spot light, scene units
   std::array<float, 3> term{};  ///< R, G, B; 0 where it is out of reach
 };
 
-/// Whether a light reaches the surface: it has no place, or the squared distance is below the row's cut2 (never where
-/// the distance is NaN). Sets at.d for a light that has a place, be it in reach or not.
+/// Whether a light reaches the surface: it has no place, or the squared distance is below the row's cut2. False where
+/// the distance is NaN. Sets at.d, the distance, for a light that has a place, whatever the result.
 bool in_reach(const LightRow& light, const SurfacePlanes& surface, LightAtPixel& at);
 
-/// The fate of a light that adds nothing although it is in reach: one of the last four, the first that applies in the
-/// order that LightFate states.
+/// Why a light that reaches the surface adds nothing: one of the last four fates, the first that applies in the order
+/// that LightFate states.
 LightFate fate_without_light(const Light& light, const SurfacePlanes& surface);
 
-/// The measure by which lights are ordered: |R| + |G| + |B| of the light's term, or infinity where this sum is NaN.
+/// The number that lights are sorted by: |R| + |G| + |B| of the term, or infinity where this sum is NaN.
 float strength(const LightAtPixel& light);
 
-/// Whether the surface lies within the light's extent, so that the light's draw keeps the pixel. True where the extent
-/// has no end, false of a distance that is NaN.
+/// Whether the surface lies within the light's extent, so that the light is drawn there. True where the extent has no
+/// end; false where the distance is NaN.
 bool inside_extent(const LightRow& light, const SurfacePlanes& surface);
 
 }  // namespace trueshade

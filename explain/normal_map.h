@@ -3,20 +3,22 @@
 
 namespace trueshade {
 
-/// A corner of a submitted triangle, as normal maps read it: world position, u and v.
+/// One corner of a submitted triangle, as normal mapping needs it: world position x, y, z, then u, v.
 using MapCorner = std::array<float, 5>;
 
-/// The directions along which u and v grow, of any length.
+/// The directions along which a surface's u and v grow, in world space, of any length.
 struct MapTangents {
   std::array<double, 3> u{}, v{};
-  double side = 0.0;  ///< of vertices' tangents, which have no v: above 0: B is along N x u, below 0 against it
+  double side = 0.0;  ///< 0, or where u is the vertices' tangent, without v: above 0 B points along N x u, below 0
+                      ///< against it
 };
 
-/// The tangents of a triangle, the same for every order of its corners; zero where it has no area in uv.
+/// The directions for a triangle; the same bits for every order of its corners. Both 0 where its uv has no area.
 MapTangents tangents_of(const std::array<MapCorner, 3>& corners);
 
-/// The normal that a texel of a normal map makes of the interpolated one (docs/arithmetic.md section 13), not made
-/// unit. It is the interpolated one where that is 0 or NaN, or where u grows along it or nowhere.
+/// The interpolated normal as a texel of a normal map bends it (docs/arithmetic.md section 13), not made unit length.
+/// It is `normal` unchanged where that is 0 or NaN, or where u grows along it or nowhere.
+///   scale: factor of the texel's x and y
 std::array<float, 3> bent_normal(const MapTangents& along, const std::array<float, 3>& normal,
                                  const std::array<float, 4>& texel, float scale);
 

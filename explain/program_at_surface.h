@@ -11,28 +11,28 @@
 
 namespace trueshade {
 
-/// The value of every node of a program: its bits; a boolean is 0 or 1.
+/// The value of every node of a program, as 32 bits; a boolean is 0 or 1.
 using NodeBits = std::vector<uint32_t>;
 
-/// A light program at one surface. Its nodes are computed one by one, each by the executor's own operation, so that a
-/// value is what the renderer has there, but for the bits of NaNs (tests/explain holds the pixels to render_frame()).
-/// The inputs of lights, view and parameters are the frame's.
+/// A light program at one surface, computed node by node with the renderer's own operations: a value has the bits that
+/// the renderer computes, but for those of NaNs (tests/explain compares the pixels with render_frame()). Lights, view
+/// and parameters are the frame's.
 class ProgramAtSurface {
  public:
-  /// Computes what depends on the surface alone. `pixel`: for the inputs surface.pixel_x and surface.pixel_y.
+  /// Computes the nodes that depend on the surface alone. `pixel`: the inputs surface.pixel_x and surface.pixel_y.
   ProgramAtSurface(std::shared_ptr<const ProgramFrame> frame, const SurfacePlanes& surface, WindowPixel pixel);
 
   /// The program, which lives as long as this object.
   const programs::Program& program() const { return frame_->executable().program; }
-  /// Whether the surface shows its albedo, and no function of the program is asked.
+  /// Whether the surface's material is unlit: it shows its albedo, and no function of the program is run.
   bool is_unlit() const { return unlit_; }
 
-  /// The values of all nodes for a light by its index in the scene; nodes that wait for the sum are 0.
+  /// The values of all nodes for one light, by its index in the scene. Nodes that need the sum of the lights are 0.
   NodeBits at_light(size_t light) const;
-  /// The values of all nodes for the sum of the lights; nodes that depend on a light are 0.
+  /// The values of all nodes once the lights are summed up. Nodes that depend on one light are 0.
   NodeBits at_sum(const std::array<float, 3>& sum) const;
 
-  /// Outputs, from the first on, as floats.
+  /// n outputs of the program, from `first` on, as floats.
   template <size_t n>
   std::array<float, n> output(const NodeBits& bits, programs::Output first) const {
     std::array<float, n> out;

@@ -9,7 +9,7 @@
 
 namespace trueshade {
 
-/// One step of a program's text with its numbers: the operations of one instruction, component by component.
+/// One step of a program with its numbers: an instruction of the source on all components of its vector.
 struct ProgramStep {
   uint32_t line = 0;                 ///< of the source; 0: not the user's, or not known
   std::string expression;            ///< of inputs by name, constants, and other steps: `#12.x`
@@ -20,20 +20,21 @@ struct ProgramStep {
   bool read_elsewhere = false;  ///< by a step of another line, or by who asked
 };
 
-/// What a program computes for some of its nodes.
+/// How a program computes some of its nodes, step by step.
 struct ProgramTrace {
   std::vector<ProgramStep> steps;  ///< in the order of computation; step i is `#(i + 1)`
   std::string result;              ///< what the nodes asked for are, in the words of expressions
 };
 
-/// How much one step holds. An operation that only one other operation of its line reads becomes part of the reader's
-/// expression: at `instruction`, if both are of one instruction or it does not round; at `expression`, always. One step
-/// holds a bounded number of operations.
+/// How much is put into one step. An operation whose result only one other operation of its line reads becomes part of
+/// the reader's expression: at `instruction` only if both are of one instruction or the inner one does not round; at
+/// `expression` always. A step holds a bounded number of operations.
 enum class StepSize : uint8_t { instruction, expression };
 
-/// The steps that the values of the nodes `wanted` come from. Of a choice only the side that was taken is followed: the
-/// other is `...`. No steps where the nodes are inputs and constants alone.
-///   bits: of all nodes; `wanted`: at most four
+/// The steps that the values of the nodes `wanted` come from. Of a choice (select) only the side that was taken is
+/// followed; the other stands as `...`. There are no steps where the nodes are only inputs and constants.
+///   bits: the values of all nodes
+///   wanted: at most four nodes
 ProgramTrace trace_of(const programs::Program& program, const NodeBits& bits, std::span<const programs::NodeId> wanted,
                       StepSize size = StepSize::instruction);
 

@@ -7,28 +7,27 @@
 
 namespace trueshade {
 
-/// How tightly an expression holds together: which operators' operand it may be without parentheses.
+/// How tightly the parts of an expression bind, loosest first, which decides where it needs parentheses.
 enum class Binding : uint8_t { choice, comparison, sum, product, whole };
 
-/// An expression for people.
+/// An expression as people read it.
 struct Expression {
   std::string text;
   Binding binding = Binding::whole;
 };
 
-/// The expression that an operation makes of its operands: `a + b`, `sqrt(a)`. Not for constants, inputs and choices.
+/// The expression of an operation on its operands: `a + b`, `sqrt(a)`. Not for constants, inputs and choices (select).
 Expression written(programs::Op op, std::span<const Expression> operands);
 
-/// An operand as it stands beside an operator: in parentheses unless it binds at least so tightly.
+/// An operand as it stands beside an operator: in parentheses unless it binds at least as tightly as `least`.
 std::string operand_text(const Expression& operand, Binding least);
 
-/// Whether an operation rounds what it makes of floats or integers to a float; false where its result is exact or no
-/// float.
+/// Whether an operation rounds: its result is a float that may differ from that of real numbers.
 bool rounds(programs::Op op);
 
-/// What an operation that makes a float of floats or integers makes of these numbers, in double. It is correctly
-/// rounded for +, -, *, / and sqrt; for others it is as good as the C library's function. NaN for operations of another
-/// kind, and for floor() and the like, whose own result is exact.
+/// The result that an operation on floats or integers has in double, for operations whose result is a float. Correctly
+/// rounded for +, -, *, / and sqrt, and as good as the C library's function for others. NaN for other operations, and
+/// for floor() and the like, whose own result is exact.
 double exact_result(programs::Op op, std::span<const double> operands);
 
 }  // namespace trueshade

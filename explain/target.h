@@ -12,17 +12,17 @@
 
 namespace trueshade {
 
-/// The surfaces of a pixel that light comes from.
+/// The surfaces that a pixel's light comes from.
 struct PixelSurfaces {
   WindowPixel pixel{};
   bool covered = false;              ///< an opaque surface is visible
-  SurfacePlanes visible;             ///< it, as lights read it
+  SurfacePlanes visible;             ///< the visible surface, as lights read it
   std::vector<SurfacePlanes> tied;   ///< forward-multipass: all fragments at the stored depth, in order of submission,
                                      ///< where these are not the visible one alone
   std::vector<SurfacePlanes> glass;  ///< transparent ones that are blended after the lights, in order of submission
 };
 
-/// The lights on one surface.
+/// What all lights give one surface.
 struct LightTotal {
   SurfacePlanes surface;
   const LightTable* table = nullptr;                          ///< whose rows the lights are
@@ -33,7 +33,7 @@ struct LightTotal {
   bool takes_albedo_alpha = false;                            ///< of a program that does not say what alpha is
 };
 
-/// The surfaces of a pixel under their lights.
+/// What all lights give each surface of a pixel.
 struct LitSurfaces {
   bool covered = false;
   LightTotal visible;
@@ -41,16 +41,17 @@ struct LitSurfaces {
   std::vector<uint32_t> geometry;       ///< deferred-volumes: how often each light's geometry covers the pixel
 };
 
-/// How often each light's geometry covers a pixel, under deferred-volumes: a quad covers every pixel once, a mesh as
-/// often as its triangles do that are not culled. Empty under other strategies.
+/// How often each light's geometry covers a pixel under deferred-volumes, by index in the scene: a quad covers every
+/// pixel once, a mesh once for each of its triangles that covers the sample and is not culled. Empty under other
+/// strategies.
 std::vector<uint32_t> geometry_at(const ExplainedFrame& frame, WindowPixel pixel);
 
-/// Lights each surface by every light (docs/arithmetic.md sections 8, 9 and 15); no light is asked of a surface that is
-/// unlit. The result borrows the frame.
-///   geometry: as geometry_at() gives it; a light of which it has 0 is not_drawn on the visible surface
+/// Lights each surface by every light (docs/arithmetic.md sections 8, 9 and 15); an unlit surface by none. The result
+/// borrows the frame.
+///   geometry: as geometry_at() returns it; a light with 0 becomes not_drawn on the visible surface
 LitSurfaces lit_surfaces(const ExplainedFrame& frame, const PixelSurfaces& surfaces, std::vector<uint32_t> geometry);
 
-/// One draw into the target.
+/// One draw into the target: its source colour, and the pixel before and after.
 struct TargetDraw {
   std::string what;
   int64_t light = -1;   ///< index of the light that is drawn; -1: none, or many
@@ -59,9 +60,9 @@ struct TargetDraw {
   StoredPixel before{}, after{};
 };
 
-/// Draws lit surfaces into a pixel as the pipeline's strategy does, and returns what it holds then (docs/arithmetic.md
-/// sections 7, 10, 14 and 15). Where no surface is drawn, that is the clear colour.
-///   times: for questions of the kind "what if": how often each light counts; empty: each once
+/// Draws lit surfaces into one pixel as the pipeline's strategy does, and returns what the target then holds
+/// (docs/arithmetic.md sections 7, 10, 14 and 15): the clear colour where no surface is drawn.
+///   times: how often each light counts, for "what if" questions; empty: each once
 ///   draws: if not null, every draw is appended in order; the first is the clear
 StoredPixel drawn_target(const ExplainedFrame& frame, const LitSurfaces& lit, std::span<const uint8_t> times = {},
                          std::vector<TargetDraw>* draws = nullptr);

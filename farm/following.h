@@ -13,20 +13,22 @@
 
 namespace trueshade {
 
-/// One call of share_tasks() on a rank other than 0. The calling thread makes the tasks and does them, with further
-/// threads where SharedTasks::at_once exceeds 1. One more thread talks to rank 0, as long as the object lives.
+/// One call of share_tasks() on a rank other than 0. The calling thread makes the tasks and does them, with more
+/// threads where SharedTasks::at_once is above 1. Another thread exchanges messages with rank 0 while the object lives.
 class Following {
  public:
-  /// Starts the thread that talks. Borrows the ranks.
+  /// Starts the thread that exchanges messages. Borrows the ranks.
+  ///   round: the number of this call of share_tasks()
   Following(Ranks& ranks, const SharingRules& rules, uint32_t round);
-  /// Says bye to rank 0, and waits for the thread that talks. That thread may end the process: see talk().
+  /// Says bye to rank 0, and waits for the message thread, which ends the process if a task goes on for lost_after
+  /// longer.
   ~Following();
   Following(const Following&) = delete;
   Following& operator=(const Following&) = delete;
 
   /// Makes the tasks by `prepare`, and does those that rank 0 hands out until rank 0 says that all are done. Returns
-  /// whether another call of share_tasks() follows. What `prepare` or a task throws is sent to rank 0, not thrown here.
-  /// Throws Error(io) where rank 0 is lost, Error(bad_input) where its messages are of another version.
+  /// whether another call of share_tasks() follows. What `prepare` or a task throws is sent to rank 0 and not thrown
+  /// here. Throws Error(io) where rank 0 is lost, Error(bad_input) where its messages are of another version.
   bool work(const std::function<SharedTasks()>& prepare);
 
  private:

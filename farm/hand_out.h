@@ -9,8 +9,8 @@
 
 namespace trueshade {
 
-/// Decides which rank does which task: the bookkeeping of share_tasks(), without messages and threads. A task that is
-/// after others is handed out once all their results are taken.
+/// Decides which rank does which task: the bookkeeping of share_tasks(), without messages and threads. A task that
+/// depends on others is handed out once the results of all of these are taken.
 class HandOut {
  public:
   using Clock = std::chrono::steady_clock;
@@ -21,37 +21,38 @@ class HandOut {
     std::chrono::milliseconds slow_after;
     bool in_any_order;
   };
-  /// No rank gets a task before let_have().
+  /// No rank gets a task before let_have() is called for it.
   ///   after: for each task, the tasks whose results must be taken before it is handed out; empty: none wait
   HandOut(const Rules& rules, const std::vector<std::vector<int>>& after);
 
-  /// Lets a rank hold `at_work` tasks at a time, and `ahead` more that wait at the rank as long as more tasks are free
-  /// than there are ranks. Widens the window by 4 for each of `at_work` beyond the first, where Rules::window is 0: so
-  /// it is called once for a rank. Until then the rank gets none.
+  /// Lets a rank work on `at_work` tasks at a time and hold `ahead` more in waiting; the latter only while more tasks
+  /// are free than there are ranks. Call it once for a rank: where Rules::window is 0 it widens the window by 4 for
+  /// each of `at_work` beyond the first.
   void let_have(int rank, int at_work, int ahead);
 
-  /// Hands one more task to a rank; the caller sends it there. Nothing where the rank holds enough, or no task can be
-  /// handed out now. A rank that holds none may get a task that another rank has been at work on for long.
+  /// Chooses one more task for a rank, and notes that the rank holds it; the caller sends it there. Nothing where the
+  /// rank holds enough, or no task can be handed out now. An idle rank may get a task that another rank has been slow
+  /// with.
   std::optional<int> next_for(int rank, Clock::time_point now);
-  /// Notes that a rank has sent its result of a task, and so holds this task no more. Returns whether it is the first
-  /// result of this task.
+  /// Notes that a rank has sent its result of a task and no longer holds the task. Returns whether this is the first
+  /// result of the task.
   bool came(int task, int rank, Clock::time_point now);
   /// Notes that the task's result was passed to SharedTasks::take. This makes room in the window for another task, and
-  /// frees tasks that waited for this one alone.
+  /// frees the tasks that waited for this one last.
   void taken(int task);
-  /// Does what taken() does, but leaves the tasks that are after this one, directly or through others, out of the run.
-  /// Returns each of them, paired with the task that it is after and because of which it is left out.
+  /// As taken(), but the tasks that depend on this one, directly or through others, will not be done. Returns pairs:
+  /// each such task, and the task that it waits for and because of which it is left out.
   std::vector<std::pair<int, int>> taken_and_closed(int task);
-  /// Frees the tasks that this rank alone holds, for other ranks, and lets the rank hold none from now on.
+  /// Notes that a rank is lost: the tasks that it alone holds become free for others, and it gets none from now on.
   void lose(int rank);
 
-  /// Whether a task was handed out more than once, be it after a loss or because it was slow.
+  /// Whether a task was handed out more than once, after a loss or because a rank was slow.
   bool was_handed_out_twice(int task) const { return tasks_[size_t(task)].times > 1; }
-  /// How often a task was handed out that had been handed out before.
+  /// How many times a task was handed out that had been handed out before.
   int handed_out_twice() const { return twice_; }
-  /// Whether each task is taken or left out. It is true where there are no tasks.
+  /// Whether each task is taken or left out. True where there are no tasks.
   bool all_taken() const { return settled_ == rules_.tasks; }
-  /// The lowest task that is neither taken nor left out; the number of tasks where there is none.
+  /// The lowest number of a task that is neither taken nor left out; the number of tasks where there is none.
   int first_untaken() const { return first_untaken_; }
 
  private:

@@ -17,33 +17,34 @@
 
 namespace trueshade {
 
-/// One call of share_tasks() on rank 0. The calling thread makes the tasks and takes results. A second thread answers
-/// the other ranks, if there are any, from construction to end(). SharedTasks::at_once further threads do tasks here.
+/// One call of share_tasks() on rank 0. The calling thread makes the tasks and takes results. A second thread exchanges
+/// messages with the other ranks, if there are any, until end(). SharedTasks::at_once more threads do tasks here.
 class Leading {
  public:
-  /// Starts the thread that answers the other ranks, if there are any. Borrows the ranks.
+  /// Starts the thread that exchanges messages with the other ranks, if there are any. Borrows the ranks.
+  ///   round: the number of this call of share_tasks()
   Leading(Ranks& ranks, const SharingRules& rules, uint32_t round);
   ~Leading();  ///< ends a run that has failed, and waits for the others for some seconds
   Leading(const Leading&) = delete;
   Leading& operator=(const Leading&) = delete;
 
-  /// Hands the tasks out from now on, and starts the threads that do them here. The caller keeps `tasks` alive as long
-  /// as this object. Throws std::system_error where the system starts none of these threads.
+  /// Hands out tasks from now on, and starts the threads that do them here. The caller keeps `tasks` alive as long as
+  /// this object. Throws std::system_error where the system starts none of these threads.
   void begin(const SharedTasks& tasks);
 
   struct Result {
     int task;
     std::vector<uint8_t> bytes;
   };
-  /// Waits for the result that is to be passed to SharedTasks::take next; nothing after the last. Where the run has
-  /// failed and the next result is not here, throws the failure.
+  /// Waits for the result that SharedTasks::take is to get next, and returns it; nothing after the last. Where the run
+  /// has failed and that result is not here, throws the failure.
   std::optional<Result> next_result();
-  /// Called after SharedTasks::take. Frees the tasks that are after this one; where SharedTasks::opens says no,
-  /// leaves them out and calls SharedTasks::leave_out for each.
+  /// Notes that SharedTasks::take has had the task's result. Frees the tasks that depend on this one; where
+  /// SharedTasks::opens returns false, leaves them out and calls SharedTasks::leave_out for each.
   void taken(int task);
 
-  /// After the last result: tells all ranks that nothing is left to do, and waits until they know, or are lost, but for
-  /// `lost_after` at most. Ranks that have not answered by then are forgotten. Calls SharedTasks::stop.
+  /// Ends a run after its last result: tells all ranks that nothing is left to do, and waits until each has answered or
+  /// is lost, for `lost_after` at most. Forgets ranks that have not answered by then. Calls SharedTasks::stop.
   SharingReport end();
 
  private:
@@ -62,9 +63,9 @@ class Leading {
 
   void end_within(std::chrono::milliseconds patience, bool goes_on);
 
-  // These are called under the lock.
-  // Acts on a message of a rank, which is also a sign of life. Empty: the message is of another version, and the rank
-  // is left out. What is of another round is dropped.
+  // The functions below are called under the lock.
+  // Acts on a message of a rank, which is also a sign of life. `says` is empty where the message is of another version:
+  // then the rank is left out. Messages of another round are dropped.
   void hear(int rank, std::optional<RankSays> says);
   void meet(int rank);
   void hear_result(int rank, int task, std::vector<uint8_t> bytes);

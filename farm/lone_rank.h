@@ -7,8 +7,8 @@
 
 namespace trueshade {
 
-/// A process that works with no other: rank 0 of one. send() drops its message, receive() sleeps for the time limit,
-/// and leave() does nothing.
+/// The only process of a run, as rank 0 of one. send() drops its message, receive() sleeps for its time limit and
+/// returns nothing, and leave() does nothing.
 class LoneRank : public Ranks {
  public:
   int own() const override { return 0; }

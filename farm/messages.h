@@ -11,7 +11,7 @@
 
 namespace trueshade {
 
-/// One message of a rank to another. Members that its kind does not use keep their defaults.
+/// One message of a rank to another. Members that its kind (`what`) does not use keep their defaults.
 struct RankSays {
   enum class What : uint8_t {
     beat,     ///< the sender is there
@@ -31,14 +31,14 @@ struct RankSays {
   std::vector<uint8_t> bytes{};
 };
 
-/// The time from one beat of a rank to its next: a fifth of `lost_after`, and a second at most.
+/// The time between two signs of life (beats) of a rank: a fifth of `lost_after`, and at most a second.
 inline std::chrono::milliseconds beat_interval(std::chrono::milliseconds lost_after) {
   return std::min(std::chrono::milliseconds(1000), lost_after / 5);
 }
 
-/// The bytes of a message, as unpacked() of the same version reads them.
+/// A message as bytes, which unpacked() of the same program version reads.
 std::vector<uint8_t> packed(const RankSays& says);
-/// Reads a message that packed() made. Nothing where the bytes are not a message of this version.
+/// Reads bytes that packed() made. Nothing where they are not a message of this version.
 std::optional<RankSays> unpacked(std::span<const uint8_t> message);
 
 }  // namespace trueshade

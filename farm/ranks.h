@@ -8,15 +8,16 @@
 
 namespace trueshade {
 
-/// What one rank sent to another, whole.
+/// A message, received whole, and the rank that sent it.
 struct RankMessage {
   int from;
   std::vector<uint8_t> bytes;  ///< any number of them, also none
 };
 
-/// The processes that work together, as one of them sees the others. Between two ranks messages arrive in the order
-/// they were sent in. A rank that is lost does not say so: who waits for it needs a time limit (task_sharing.h).
-/// Any thread may call send() and receive(); the others are called by one thread at a time.
+/// The processes that work together, numbered from 0 (ranks), as one of them sees the others. Messages between two
+/// ranks arrive in the order in which they were sent. A rank that is lost does not say so: wait for it only with a time
+/// limit (task_sharing.h). Any thread may call send() and receive(); the other functions are called by one thread at a
+/// time.
 class Ranks {
  public:
   virtual ~Ranks() = default;
@@ -26,32 +27,32 @@ class Ranks {
   virtual std::string host(int rank) const = 0;  ///< name of its machine, for messages
   virtual int on_this_machine() const = 0;       ///< ranks that may run on the same cores, this one too
 
-  /// Sends a message, and returns at once; the message waits in memory until the receiver has taken it. Of no effect to
-  /// a rank that is forgotten. `to` is not own().
+  /// Queues a message and returns at once; it waits in memory until the receiver has taken it. Does nothing where the
+  /// rank `to` is forgotten. `to` is not own().
   virtual void send(int to, std::vector<uint8_t> bytes) = 0;
 
-  /// Waits for the next message of any rank and returns it; nothing where none has come in `timeout`. 0 only looks.
+  /// Waits for the next message of any rank and returns it; nothing where none comes within `timeout`. 0 does not wait.
   virtual std::optional<RankMessage> receive(std::chrono::milliseconds timeout) = 0;
 
-  /// Whether the process of a rank has ended, which is known of ranks on this machine only; false where it is unknown.
+  /// Whether the process of a rank is known to have ended. Only ends on this machine are seen; false for other ranks.
   virtual bool has_ended(int rank) const = 0;
 
-  /// From now on that rank is lost: nothing is sent to it, what it sent is dropped, and leave() does not wait for it.
+  /// Gives a rank up as lost: nothing more is sent to it, what it sent is dropped, and leave() does not wait for it.
   virtual void forget(int rank) = 0;
-  /// Whether forget() was called of that rank.
+  /// Whether forget() was called for that rank.
   virtual bool is_forgotten(int rank) const = 0;
 
-  /// The last call, by every rank: sends what waits, and waits for some seconds until the others that are not forgotten
-  /// leave too. Ends this process, by `exit_code`, where a rank was forgotten or the others do not leave in time; on
-  /// rank 0 a forgotten rank ends the other processes too.
+  /// The last call of each rank: sends the messages that wait, and waits for some seconds until the others that are not
+  /// forgotten leave too. Ends this process with `exit_code` where a rank was forgotten or the others do not leave in
+  /// time; on rank 0 a forgotten rank ends the other processes too.
   virtual void leave(int exit_code) = 0;
 
-  /// Returns how many calls there were before this one: the number of a call of share_tasks().
+  /// Numbers the calls of share_tasks(): returns how often it was called before.
   uint32_t next_round() { return rounds_++; }
 
-  /// Gives a rank that is still there no more tasks, now and in later rounds.
+  /// Gives a rank no more tasks, now and in later rounds, although it is still there.
   void exclude(int rank) { excluded_.insert(rank); }
-  /// Whether exclude() was called of that rank.
+  /// Whether exclude() was called for that rank.
   bool is_excluded(int rank) const { return excluded_.contains(rank); }
 
  private:

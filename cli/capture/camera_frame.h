@@ -9,29 +9,31 @@ namespace trueshade {
 
 using Real3 = std::array<double, 3>;
 
-/// The camera of a capture in double: its axes in the world, and where a pixel's ray is at a depth.
+/// The camera of a capture, in double: the axes of its view space in the world, and points on the rays of pixels.
 class CameraFrame {
  public:
-  /// Finds the axes and the eye. They are meaningless where check_axes() throws.
+  /// Finds the axes and the eye. They mean nothing where check_axes() throws.
   CameraFrame(const Scene& scene, const Pipeline& pipeline);
 
-  /// A direction of `space`, in the world. Call check_axes() before, for a view space.
+  /// Turns a direction given in `space` into the world's axes. Call check_axes() first, for a view space.
   Real3 world_direction(CapturedSpace space, const Real3& n) const;
-  /// A position of `space`, in the world. Call check_axes() before, for a view space.
+  /// Turns a position given in `space` into the world's. Call check_axes() first, for a view space.
   Real3 world_position(CapturedSpace space, const Real3& p) const;
-  /// Error(bad_input) where the matrix is sheared or has no inverse, so that view space has no axes.
+  /// Throws Error(bad_input) where the camera's matrix is sheared or has no inverse, so that view space has no axes.
   void check_axes() const;
 
-  /// Where all rays meet; of an orthographic matrix the scene's camera.
+  /// The world position where all rays meet; of an orthographic camera the scene's camera position.
   const Real3& eye() const { return eye_; }
 
-  /// The point of a pixel's ray (pixel centre, y from the top) at a distance along the camera's axis.
+  /// The world position on the ray of pixel (x, y)'s centre, y from the top, at a distance along the camera's axis,
+  /// scene units.
   Real3 at_linear(int x, int y, double depth) const;
-  /// The point of a pixel's ray at a distance from the eye; of an orthographic camera along its axis.
+  /// The world position on the ray of pixel (x, y)'s centre, y from the top, at a distance from the eye, scene units;
+  /// of an orthographic camera, at a distance along its axis.
   Real3 at_distance(int x, int y, double distance) const;
-  /// The point of a pixel's ray at a window depth.
+  /// The world position on the ray of pixel (x, y)'s centre, y from the top, at a window depth.
   Real3 at_window(int x, int y, double depth) const;
-  /// The window depth of a point, not clamped; infinite or NaN in the eye's plane.
+  /// The window depth of a world position, not clamped; infinite or NaN in the plane of the eye.
   double window_depth(const Real3& point) const;
 
  private:

@@ -9,19 +9,19 @@
 
 namespace trueshade {
 
-/// A capture, and what its planes cannot tell, a line each.
+/// A capture, with a line of text about each thing that its planes cannot tell.
 struct CapturedPlanes {
   oracle::Capture capture;
   std::vector<std::string> notes;
 };
 
-/// Puts the planes of files together. Packed ones are unpacked, with their bounds in Capture::decoded. Where there is
-/// no surface, as depth or id.object say, an unpacked plane is 0, since nothing was packed there, and so is a plane
-/// that holds a single value there, which it was cleared to. Planes that are as they were stored are still in the
-/// files' formats (stored_planes.h).
+/// Makes a capture of the planes in the files. Packed planes are unpacked, with their error bounds in Capture::decoded.
+/// An unpacked plane is 0 where depth or id.object say that there is no surface, since nothing was packed there; so is
+/// a plane that holds there one value only, the one it was cleared to. Planes that need no unpacking keep the files'
+/// formats (stored_planes.h).
 ///   pipeline: of the capture's size; its geometry is the camera's clip space and the depth buffer's
-/// Error(bad_input) naming the pixel for values that no packing has, depths that are none, and NaN where a surface is
-/// unpacked; also for a camera without a view space where one is needed.
+/// Error(bad_input), naming the pixel, for values that no packing makes, values that are no depths, and NaN where a
+/// surface is unpacked; also for a camera without a view space where one is needed.
 CapturedPlanes captured_planes(const CaptureFiles& files, const Scene& scene, const Pipeline& pipeline);
 
 }  // namespace trueshade

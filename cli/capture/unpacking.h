@@ -2,29 +2,29 @@
 #include <array>
 #include <optional>
 
-// Normals out of few numbers, in double. u = 2^-23 is one rounding of a shader's float arithmetic in any direction
-// (GLSL 4.60, 4.7.1), a division 2.5 u, an inverse square root 2 u.
+// Unpacks normals that are stored in few numbers, in double. u = 2^-23 is one rounding of a shader's float arithmetic
+// in any direction (GLSL 4.60, 4.7.1), a division 2.5 u, an inverse square root 2 u.
 namespace trueshade {
 
-/// A number as a file holds it, on the way to what a shader makes of it.
+/// A number as a file holds it, with how far off packing and reading may make it.
 struct PackedNumber {
   double value = 0;
-  double step = 0;   ///< between this number and the next that the storage holds; 0 of 32-bit floats
+  double step = 0;   ///< distance to the next number that the storage holds; 0 of 32-bit floats
   double fetch = 0;  ///< bound on |value - what a shader reads|: 2.5 u of a code, 0 of a float
 };
 
-/// A vector that was unpacked. Bounds on each component, of value rounded to float.
+/// A vector that was unpacked, and bounds on how far each component, rounded to float, may be off.
 struct UnpackedVector {
   std::array<double, 3> value{};
-  double reading_error = 0;  ///< to what the engine's shader unpacks from the same numbers
-  double packing_error = 0;  ///< to what was packed: a store may take either neighbouring number
+  double reading_error = 0;  ///< from what the engine's shader unpacks from the same numbers
+  double packing_error = 0;  ///< from what was packed: a store may have taken either neighbouring number
 };
 
-/// 2 c - 1, what an unorm number c stands for, with its step and error: doubling is exact, the difference is rounded
-/// once.
+/// 2 c - 1, the number in [-1, 1] that an unorm number c stands for, with its step and error: doubling is exact, the
+/// difference is rounded once.
 PackedNumber signed_number(const PackedNumber& c);
 
-/// Three components as they are, with the bounds of the largest error among them. Not made unit length.
+/// A vector of three stored components, not made unit length. Each bound is the largest of the components' bounds.
 UnpackedVector unpacked_components(const std::array<PackedNumber, 3>& n);
 
 /// Unpacks an octahedral direction:

@@ -13,16 +13,16 @@
 
 namespace trueshade {
 
-/// Ranks over MPI. One thread makes all calls of MPI, from MPI_Init_thread to MPI_Finalize; it looks for messages and
-/// sleeps between, at most 2 ms, as the other ranks may want the core.
+/// Ranks over MPI. One thread makes all MPI calls, from MPI_Init_thread to MPI_Finalize. Between looking for messages
+/// it sleeps, at most 2 ms, as other ranks may need the core.
 class MpiRanks : public Ranks {
  public:
-  /// Waits for all other processes, for two minutes; has_joined() tells whether all came.
+  /// Joins the other processes, waiting up to two minutes for all of them; has_joined() tells whether all came.
   MpiRanks();
-  /// Lets the thread go on if leave() was not called: the process ends soon.
+  /// Abandons the MPI thread if leave() was not called, as the process is about to end.
   ~MpiRanks() override;
 
-  /// Whether all processes came.
+  /// Whether all processes of the run joined within the two minutes.
   bool has_joined() const { return joined_; }
 
   int own() const override { return own_; }

@@ -9,18 +9,18 @@
 
 namespace trueshade {
 
-/// Messages under way. Long ones go in pieces, of which all but the last have the tag kMore.
+/// The messages that MPI is sending or receiving. Long ones go in pieces; all pieces but the last have the tag kMore.
 class MpiRanks::Traffic {
  public:
-  /// Messages among `ranks` ranks of the communicator.
+  /// Sends and receives among ranks 0 to `ranks` - 1 of the communicator.
   explicit Traffic(MPI_Comm communicator, int ranks) : communicator_(communicator), from_(size_t(ranks)) {}
 
-  /// Begins to send a letter, and keeps its bytes until they are sent. Does not wait.
+  /// Starts to send a letter without waiting, and keeps its bytes until they are sent.
   void send(Letter letter);
-  /// Goes on sending and receiving, without waiting, and appends each message that has arrived whole to `complete`.
-  /// Returns whether anything moved.
+  /// Continues to send and receive without waiting, and appends each message that has arrived whole to `complete`.
+  /// Returns whether anything was sent or received.
   bool advance(std::deque<RankMessage>& complete, const std::deque<Member>& members);
-  /// Whether nothing is left to be sent but to members that are forgotten.
+  /// Whether all letters are sent, but for those to forgotten members.
   bool all_sent(const std::deque<Member>& members) const;
 
  private:

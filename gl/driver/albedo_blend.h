@@ -8,8 +8,8 @@
 
 namespace trueshade::oracle {
 
-/// What `draw` draws, blended into the colour plane of the G-buffer that is bound, and into nothing else: depth is
-/// tested and kept.
+/// Blends what `draw` draws into the albedo plane of the G-buffer that is bound. The other planes are not written;
+/// depth is tested, but not written either.
 template <typename Draw>
 void blend_into_albedo(std::span<const GlslPlane> planes, const BlendState& blend, const Draw& draw) {
   glDepthMask(GL_FALSE);

@@ -3,7 +3,7 @@
 
 namespace trueshade::oracle {
 
-/// Sets blending and the colour mask of all attachments; whatever was set before is overridden.
+/// Sets blending and the colour mask of all attachments, whatever was set before.
 void set_blend_state(const BlendState& state);
 
 }  // namespace trueshade::oracle

@@ -5,15 +5,15 @@
 
 namespace trueshade::oracle {
 
-/// Which of a machine's OpenGL drivers to open. The Mesa rasterizers are chosen by name, as GALLIUM_DRIVER does; a
-/// process keeps the first one it opened, so llvmpipe and softpipe need a process each.
+/// Which of a machine's OpenGL drivers to open. The Mesa rasterizers are chosen by name, as GALLIUM_DRIVER does. A
+/// process keeps the first one that it opened, so llvmpipe and softpipe need a process each.
 enum class GlDriver { any, llvmpipe, softpipe };
 
-/// How EGL gives a display without a window.
+/// How EGL opens a display that has no window.
 enum class GlPlatform { surfaceless, device };
 inline constexpr GlPlatform kGlPlatforms[] = {GlPlatform::surfaceless, GlPlatform::device};
 
-/// What a driver says of itself.
+/// How a driver describes itself.
 struct GlInfo {
   std::string vendor, renderer, version;
   int major = 0, minor = 0;
@@ -24,12 +24,13 @@ struct GlInfo {
   std::string line() const { return vendor + ", " + renderer + ", OpenGL " + version; }
 };
 
-/// An OpenGL core context without a window: EGL's surfaceless platform, else the first EGL device that works.
-/// GL 4.5 where the driver has it, lower down to 3.3. One thread uses a context at a time.
+/// An OpenGL core context without a window, of EGL's surfaceless platform or else of the first EGL device that works:
+/// of GL 4.5 where the driver has it, otherwise of a version down to 3.3. Only one thread at a time may use it.
 class GlContext {
  public:
-  /// Throws Error(no_gl_driver) that says what was tried. LIBGL_ALWAYS_SOFTWARE is the driver's own to read.
-  ///   platforms: tried in that order, each of their displays until one gives a context
+  /// Opens the context. Error(no_gl_driver), which says what was tried, where there is none. The driver itself reads
+  /// LIBGL_ALWAYS_SOFTWARE.
+  ///   platforms: tried in this order, each of their displays until one gives a context
   explicit GlContext(GlDriver driver = GlDriver::any, std::span<const GlPlatform> platforms = kGlPlatforms);
   ~GlContext();
   GlContext(const GlContext&) = delete;

@@ -6,16 +6,17 @@
 
 namespace trueshade::oracle {
 
-/// One design, ready: programs linked, textures there, matrices uploaded. draw() does a frame's work and no more.
-/// A pipeline that draws what lies behind (depth function, culling, viewport) is taken as it is.
+/// One design of a renderer, ready to draw: programs linked, textures there, matrices uploaded. A pipeline that draws
+/// what lies behind (depth function, culling, viewport) is drawn as it says.
 class GlPeer {
  public:
-  /// Borrows the renderer, which must outlive it. `tile`: pixels a side of the designs that bin lights; 0: what is
-  /// fastest on llvmpipe, 16 of forward_plus and 32 of the tiled ones.
+  /// Borrows the renderer, which must outlive this object.
+  ///   tile: side in pixels of the tiles of designs that bin lights; 0: what is fastest on llvmpipe, 16 for
+  ///         forward_plus and 32 for the tiled ones
   GlPeer(GlRenderer& renderer, const Pipeline& pipeline, GlDesign design, int tile = 0);
   ~GlPeer();
 
-  /// A frame: the target is read back where asked for, after the last pass's time was taken. No planes.
+  /// Draws a frame, without its planes. If asked to, reads the target back, after the time of the last pass is taken.
   GlFrame draw(bool read_back);
 
  private:

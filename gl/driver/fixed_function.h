@@ -10,17 +10,17 @@
 
 namespace trueshade::oracle {
 
-/// A vertex to be lit: in the space of an eye at the origin that looks along -z.
+/// A vertex to be lit. The eye is at the origin and looks along -z.
 struct LitPoint {
   glm::vec3 position, normal;
   glm::vec4 albedo;   ///< the material's ambient and diffuse
   Material material;  ///< its specular colour, shininess (up to 128) and emission
 };
 
-/// What OpenGL's own lighting (glLight, glMaterial; compatibility profile, 12.2.1) makes of each point, drawn one a
-/// pixel into RGBA32F. Lights: at most 8, point, spot or directional, spot exponents up to 128, a cutoff up to 90
-/// degrees or 180. GL_NORMALIZE is on, everything else as a context has it at first. Nothing where the driver has no
-/// such profile.
+/// The colours that OpenGL's own lighting (glLight, glMaterial; compatibility profile, 12.2.1) gives the points, each
+/// drawn into one pixel of RGBA32F. GL_NORMALIZE is on, everything else as a new context has it. Nothing where the
+/// driver has no compatibility profile.
+///   lights: at most 8, point, spot or directional, spot exponents up to 128, a cutoff up to 90 degrees or 180
 std::optional<std::vector<std::array<float, 4>>> fixed_function_colors(const GlContext& context,
                                                                        std::span<const LitPoint> points,
                                                                        std::span<const Light> lights);

@@ -5,21 +5,21 @@ namespace trueshade::oracle {
 
 class GlContext;
 
-/// Throws Error where the driver cannot do what the pipeline says at this size.
+/// Throws Error where the driver cannot draw the pipeline's geometry at this size in pixels.
 void check_limits(const GlContext& context, const Pipeline& pipeline, int width, int height);
 
-/// Sets all state of the geometry pass, the viewport moved by (shift_x, shift_y); whatever was set before is
-/// overridden.
+/// Sets all GL state of the geometry pass, whatever was set before, with the viewport moved by (shift_x, shift_y)
+/// pixels.
 void set_geometry_state(const GeometryState& state, const Viewport& viewport, int shift_x, int shift_y);
 
-/// Of this state, culling and the front face alone.
+/// Sets culling and the front face, and no other state.
 void set_faces(CullFace culled, FrontFace front);
 
-/// State of the draws of light geometry (meshes, or quads) but for blending: no depth test, nothing of the scene's
-/// culling.
+/// Sets the state in which lights' geometry is drawn, except blending: no depth test, and none of the scene's culling.
+///   mesh: the geometry is meshes; false: quads
 void set_volume_state(const Pipeline& pipeline, bool mesh, int shift_x, int shift_y);
 
-/// State of a pass over the whole image: no test, no blending, no culling, clip control as GL starts with.
+/// Sets the state of a pass over the whole image: no depth test, blending or culling; clip control as in a new context.
 void set_image_state(int width, int height);
 
 }  // namespace trueshade::oracle

@@ -6,7 +6,7 @@
 
 namespace trueshade::oracle {
 
-/// The maps of a scene's materials as OpenGL textures, levels as the scene has them. The context must be current.
+/// The maps of a scene's materials as OpenGL textures, with the scene's own levels. The context must be current.
 class MapTextures {
  public:
   explicit MapTextures(const Scene& scene);
@@ -20,7 +20,7 @@ class MapTextures {
   bool vertex_tangents() const { return vertex_tangents_; }  ///< there are normal maps and meshes with tangents
   bool more_uv() const { return more_uv_; }  ///< some map reads texture coordinates beside the first set
 
-  /// Hands a material's maps and cutoff to a program of GlslOptions::maps, in texture units 13 to 18.
+  /// Gives a program of GlslOptions::maps a material's maps and cutoff. Uses texture units 13 to 18.
   void bind(GLuint program, uint32_t material) const;
 
  private:

@@ -60,7 +60,7 @@ GlBuffer make_buffer(GLenum target, std::span<const T> values) {
 GlVertexArray make_vertex_array();
 GlTexture make_texture(Format format, int width, int height);  ///< one level, nearest, clamped
 
-/// A buffer read by texelFetch(samplerBuffer): RGBA32F texels, at least one.
+/// A buffer that shaders read by texelFetch(samplerBuffer): at least one RGBA32F texel.
 struct GlTexelBuffer {
   GlBuffer buffer;
   GlTexture texture;
@@ -68,24 +68,25 @@ struct GlTexelBuffer {
 GlTexelBuffer make_texel_buffer(std::span<const float> rgba);
 GlTexelBuffer make_index_buffer(std::span<const uint32_t> values);  ///< R32UI texels, for usamplerBuffer
 
-/// Colour attachments 0.. in order, and depth unless 0. `complete` is false where the driver cannot render to them.
+/// A framebuffer. `complete` is false where the driver cannot render into these attachments.
 struct GlTarget {
   GlFramebuffer framebuffer;
   bool complete = false;
 };
 GlTarget make_target(std::span<const GLuint> colors, GLuint depth);
 
-/// Compiles and links. Throws std::runtime_error with the driver's log: the text is ours, or came from a file we wrote.
+/// Compiles and links a program. Throws std::runtime_error with the driver's log, as the text is ours or from a file
+/// that we wrote.
 GlProgram make_program(std::string_view name, const std::string& vertex, const std::string& fragment);
 
 void set_uniform(GLuint program, const char* name, int value);
 void set_uniform(GLuint program, const char* name, float value);
 void set_uniform(GLuint program, const char* name, std::span<const float> values);  ///< vec2, vec3 or vec4 by size
 
-/// Binds a texture to a unit and tells the sampler of that name.
+/// Binds a texture to a unit, and sets the program's sampler of that name to the unit.
 void bind_texture(GLuint program, const char* sampler, int unit, GLenum target, GLuint texture);
 
-/// Binds a buffer to the program's uniform block of that name, where it has one.
+/// Binds a buffer to the program's uniform block of that name. Does nothing where the program has none.
 void bind_block(GLuint program, const char* name, GLuint buffer);
 
 /// Throws std::runtime_error if GL has recorded an error since the last call.

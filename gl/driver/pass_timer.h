@@ -7,7 +7,7 @@
 
 namespace trueshade::oracle {
 
-/// Wall time of passes, each up to the end of all its work on the GPU.
+/// Measures the wall time of passes, each until all of its work on the GPU has ended.
 class PassTimer {
  public:
   explicit PassTimer(std::vector<GlPass>& passes) : passes_(passes) {

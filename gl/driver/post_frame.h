@@ -6,8 +6,9 @@
 
 namespace trueshade::oracle {
 
-/// The post chain of `pipeline` over a frame of pipeline_without_post(): its target, and its depth, which the light
-/// markers are tested against and write to. The context must be current; state is left as the last pass set it.
+/// The picture that the pipeline's post chain makes of a frame drawn by pipeline_without_post(). Light markers are
+/// tested against the frame's `depth` and write to it. The context must be current; its state stays as the last pass
+/// set it.
 Image finished_by_gl(const Scene& scene, const Pipeline& pipeline, int version, const GlTexture& target,
                      const GlTexture& depth);
 

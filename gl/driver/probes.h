@@ -5,11 +5,11 @@ namespace trueshade::oracle {
 
 // What a driver can do, found by doing it: neither a version nor an extension tells.
 
-/// Whether a colour attachment of this format makes a complete framebuffer.
+/// Whether a framebuffer with one colour attachment of this format is complete.
 bool renders_to(Format format);
 
-/// Whether a fragment shader that reads gl_PrimitiveID draws anything, and reads 0 in the first triangle. Mesa 22.3's
-/// softpipe drops all triangles of such a program.
+/// Whether fragment shaders can read gl_PrimitiveID: one that does draws, and reads 0 in the first triangle. In Mesa
+/// 22.3's softpipe such a program draws no triangle.
 bool counts_primitives();
 
 }  // namespace trueshade::oracle

@@ -4,8 +4,8 @@
 
 namespace trueshade::oracle {
 
-/// The rectangle of `texture` that starts at window pixel (x, y), rows top first, stored bits as the driver hands them
-/// out.
+/// Reads a rectangle of `texture` whose lower left pixel is (x, y) in the window. The image has the top row first, and
+/// the bits that the driver hands out.
 Image read_texture(GLuint texture, Format format, int x, int y, int width, int height);
 
 }  // namespace trueshade::oracle

@@ -39,8 +39,8 @@ class SceneBuffers;
 struct Targets;
 struct Programs;
 
-/// Compiled shaders by their text, for renderers of one context one after the other: a driver takes longer to compile
-/// than to draw a small frame. To be freed before the context, on its thread.
+/// Compiled shaders by their text, shared by renderers that use one context one after the other: a driver takes longer
+/// to compile than to draw a small frame. Destroy it before the context, on the context's thread.
 class KeptPrograms {
  public:
   KeptPrograms();
@@ -51,20 +51,22 @@ class KeptPrograms {
   std::vector<std::unique_ptr<Programs>> all_;
 };
 
-/// A scene on a driver. Meshes are uploaded once, frames of any pipeline drawn from them.
-/// Borrows both, which must outlive it unchanged; to be used on one thread at a time.
+/// Draws a scene on one OpenGL driver. Meshes are uploaded once, for frames of any pipeline. Borrows context and scene,
+/// which must outlive it unchanged. For one thread at a time.
 class GlRenderer {
  public:
-  /// `rotation`: 0, 1 or 2, the vertex each triangle starts with. Changes what a flat attribute follows, nothing else.
-  /// `kept`: programs of other renderers, to which this one's are added; without it those of the last frame alone are
-  /// kept.
+  /// Uploads the scene.
+  ///   rotation: 0, 1 or 2, the vertex that each triangle starts with; changes which vertex flat attributes follow, and
+  ///             nothing else
+  ///   kept: programs of other renderers, to which this one's are added; null: only the last frame's programs are kept
   GlRenderer(const GlContext& context, const Scene& scene, int rotation = 0, KeptPrograms* kept = nullptr);
   ~GlRenderer();
 
-  /// The options whose shaders draw() makes for itself: all planes, or what the light pass reads alone.
+  /// The shader options that draw() uses unless it is given shaders: for all planes, or for those that the light pass
+  /// reads.
   GlslOptions shader_options(const GlDraw& draw) const;
 
-  /// Throws Error(limit or no_gl_driver) where the driver cannot draw this: image too large, no clip control.
+  /// Draws a frame. Error(limit or no_gl_driver) where the driver cannot: too large an image, no clip control.
   GlFrame draw(const Pipeline& pipeline, const GlDraw& draw = {});
 
   const GlContext& context() const { return *context_; }

@@ -14,31 +14,33 @@ namespace trueshade::oracle {
 /// Which surfaces a pass draws.
 enum class Surfaces : uint8_t { all, opaque, transparent };
 
-/// A scene on the GPU: each mesh once, lights as texels. Instance matrices follow when a camera and a size are known.
+/// A scene on the GPU: each mesh once, lights as texels. Instances' matrices are uploaded for each camera and size.
 class SceneBuffers {
  public:
-  /// `rotation`: triangles start with their vertex 0, 1 or 2; the same picture where a driver keeps GL's promises.
-  /// Borrows the scene, which must outlive it unchanged. The context must be current.
+  /// Uploads the meshes. Borrows the scene, which must outlive it unchanged. The context must be current.
+  ///   rotation: triangles start with their vertex 0, 1 or 2; the same picture where a driver keeps GL's promises
   explicit SceneBuffers(const Scene& scene, int rotation = 0);
 
   const Scene& scene() const { return *scene_; }
   bool has_vertex_colors() const;
   uint32_t light_types() const;  ///< of the scene, a bit each: 1 << LightType
 
-  /// Matrices of docs/arithmetic.md sections 1 and 2, for every instance.
+  /// Uploads the matrices of every instance (docs/arithmetic.md sections 1 and 2).
   void upload_instances(const Pipeline& pipeline);
-  /// Every triangle of those surfaces, in submission order, by the program in use, culled as the state in force
-  /// says; where there are double-sided or mirrored ones, as that of upload_instances()'s pipeline says for them; one
-  /// of GlslOptions::maps where maps() are used; texture units 11 (frames of normal maps) and 13 to 19.
+  /// Draws every triangle of these surfaces, in submission order, by the program in use. Culling is that of the current
+  /// GL state; where the scene has double-sided or mirrored instances, each is culled as upload_instances()'s pipeline
+  /// says for it. Where maps() are used, the program must be of GlslOptions::maps. Uses texture units 11 (frames of
+  /// normal maps) and 13 to 19.
   void draw_instances(Surfaces which = Surfaces::all) const;
-  /// One transparent instance of them.
+  /// Draws one transparent instance in the same way.
   void draw_transparent(uint32_t instance) const;
-  /// The same with a draw an instance, for programs of GlslOptions::instance_uniforms. The program must be in use.
+  /// Draws the same by one draw call an instance, for programs of GlslOptions::instance_uniforms. The program must be
+  /// in use.
   void draw_each_instance(GLuint program, Surfaces which = Surfaces::all) const;
   const MapTextures& maps() const { return maps_; }
   bool has_large_meshes() const;  ///< so large that a draw an instance costs less than matrices read by every vertex
   GLuint light_texels(const Pipeline& pipeline);  ///< light_records()
-  /// Material records as material_text() reads them.
+  /// The buffer texture with the materials' records, which material_text() reads.
   GLuint material_texels(const Pipeline& pipeline);
 
  private:

@@ -10,7 +10,8 @@
 
 namespace trueshade::oracle {
 
-/// What a tile shows, from what its pixels hold: where lights must be to reach it, and on which side.
+/// The surfaces in a tile, bounded by what its pixels hold: a sphere around their places, and a cone around their
+/// normals.
 struct TileSurface {
   float low = 2, high = -1;        ///< least and greatest depth; low > high: the tile shows nothing
   std::array<double, 3> center{};  ///< world: a sphere about the tile's part of the view between those depths
@@ -18,15 +19,18 @@ struct TileSurface {
   std::array<double, 3> axis{};  ///< every normal is within acos(cosine) of it
   double cosine = -1;
 
-  /// False where nothing in the sphere is within `reach` of the light.
+  /// Whether some point of the sphere may be within `reach` (scene units) of the light.
   bool within(const glm::vec3& light, double reach) const;
-  /// False where no normal of the cone faces the light from anywhere in the sphere: with t the cone's angle and
-  /// sin p = radius / distance, the light is farther than 90 degrees + t + p from the axis.
+  /// Whether some surface of the tile may face the light: a normal of the cone, anywhere in the sphere. With t the
+  /// cone's angle and sin p = radius / distance, none does where the light is farther than 90 degrees + t + p from the
+  /// axis.
   bool faces(const glm::vec3& light) const;
 };
 
-/// Tiles in rows from the bottom. depth: as stored, row 0 at the bottom; those equal to clear_depth hold no surface.
-/// normals: RGBA halves in the same order, of any length; empty: not known. Roundings of a float position are covered.
+/// Bounds the surfaces of each tile; tiles in rows, the bottom row first. Roundings of float positions are covered.
+///   depth:   as stored, row 0 at the bottom; those equal to clear_depth hold no surface
+///   normals: RGBA halves in the same order, of any length; empty: not known
+///   tile:    pixels a side
 std::vector<TileSurface> tile_surfaces(const Scene& scene, const Pipeline& pipeline, std::span<const float> depth,
                                        std::span<const uint16_t> normals, int tile);
 

@@ -8,8 +8,8 @@
 
 namespace trueshade::oracle {
 
-/// The geometry of all lights on the GPU, in light order, for as few draws as their state allows: vertices are
-/// (corner, index of the light), attributes 0 and 1.
+/// The geometry of all lights on the GPU, in the order of the lights, for as few draw calls as their state allows.
+/// Vertices have the attributes 0, the corner, and 1, the light's index.
 struct VolumeBatches {
   struct Run {
     bool mesh;         ///< of meshes in the world; otherwise quads over the image
@@ -21,7 +21,8 @@ struct VolumeBatches {
   std::vector<Run> runs;  ///< to be drawn in this order, GL_TRIANGLES, GL_UNSIGNED_INT
 };
 
-/// Extents as drawn_extent() gives them, vertices as light_vertices() does. The context must be current.
+/// Makes the geometry of lights, with extents by drawn_extent() and vertices by light_vertices(). The context must be
+/// current.
 VolumeBatches make_volume_batches(std::span<const Light> lights, const LightVolumes& volumes);
 
 }  // namespace trueshade::oracle

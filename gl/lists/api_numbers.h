@@ -9,20 +9,20 @@
 
 namespace trueshade::oracle {
 
-/// A name of an API's headers, and what it stands for in the Khronos registry.
+/// A constant of an API's headers: its name, and its number in the Khronos registry.
 struct ApiNumber {
   std::string_view name;
   uint32_t number;
 };
 
-/// The names that a frame's files may hold, and those that drawing from them takes, for programs without headers.
+/// The constants that a frame's files may name, and those needed to draw from them, for programs without the headers.
 std::span<const ApiNumber> api_numbers(ShaderApi api);
-/// The number of one of these names.
+/// The number of one of these names. Throws std::logic_error for any other name.
 uint32_t api_number(ShaderApi api, std::string_view name);
 
-/// What an API calls a wrap: GL_REPEAT, VK_SAMPLER_ADDRESS_MODE_REPEAT.
+/// The constant of an API for a texture wrap: GL_REPEAT, VK_SAMPLER_ADDRESS_MODE_REPEAT.
 std::string wrap_name(ShaderApi api, Wrap wrap);
-/// A word of ours as the APIs spell it: CLAMP_TO_EDGE.
+/// One of our words in the APIs' spelling: `clamp_to_edge` as CLAMP_TO_EDGE.
 std::string capitals(std::string_view word);
 
 }  // namespace trueshade::oracle

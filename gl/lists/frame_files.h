@@ -14,7 +14,8 @@ struct FrameFiles {
   std::vector<uint8_t> bytes;
 };
 
-/// Error(usage) where the API has no name for what the scene needs.
+/// The frame as files, with `file` the name of the file of bytes. Error(usage) where the API has no name for what the
+/// scene needs.
 FrameFiles frame_files(const FrameList& list, ShaderApi api, const std::string& file);
 
 }  // namespace trueshade::oracle

@@ -14,7 +14,7 @@
 // any API. docs/opengl.md says the same of the files that are written from it.
 namespace trueshade::oracle {
 
-/// What passes draw into and read.
+/// A picture that passes draw into and read.
 struct ListedPicture {
   std::string name;
   Format format;
@@ -37,7 +37,7 @@ struct ListedTexture {
   Sampler sampler;
 };
 
-/// What a location of the vertex shader reads: 32-bit components at an offset in each vertex or each instance.
+/// An input of the vertex shader: how many 32-bit components, and where they lie in each vertex or each instance.
 struct ListedAttribute {
   std::string name;
   int location = 0, components = 0;
@@ -45,7 +45,7 @@ struct ListedAttribute {
   int offset = 0, stride = 0;  ///< bytes
 };
 
-/// A sampler of the pass's shaders, and the picture, buffer or texture of that name which it reads.
+/// A sampler of the pass's shaders, and the name of the picture, buffer or texture that it reads.
 struct ListedBinding {
   std::string sampler, source;
 };
@@ -61,7 +61,7 @@ struct ListedDraw {
   int object = -1;                      ///< the last draw of that transparent instance
 };
 
-/// Draws by one program, into one set of pictures, in one state.
+/// A pass: draws by one program, into the same pictures, in one state.
 struct ListedPass {
   std::string name, vert, frag;
   std::vector<std::string> colors;
@@ -85,7 +85,8 @@ struct FrameList {
   std::vector<ListedPass> passes;
 };
 
-/// The frame before the post chain. `options`: scene_options() of the scene, and what the API has.
+/// The passes of a frame, without the post chain.
+///   options: scene_options() of the scene, and what the API can do
 FrameList frame_list(const Scene& scene, const Pipeline& pipeline, const GlslOptions& options);
 
 }  // namespace trueshade::oracle

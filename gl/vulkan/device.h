@@ -44,10 +44,10 @@ struct VulkanInfo {
 
 VkFormat vulkan_format(Format format);
 
-/// A device without a window, with one queue. What is made on it lives as long as it does.
+/// A Vulkan device without a window, with one queue. It owns what is made on it.
 class VulkanDevice {
  public:
-  /// Throws Error(no_gl_driver) that says what is missing.
+  /// Opens the device. Error(no_gl_driver), which says what is missing, where there is none.
   explicit VulkanDevice(VulkanDriver driver);
   VulkanDevice(const VulkanDevice&) = delete;
   VulkanDevice& operator=(const VulkanDevice&) = delete;
@@ -64,11 +64,11 @@ class VulkanDevice {
   VulkanImage make_texture(const Texture& texture);
   VkSampler make_sampler(const Sampler& sampler, int levels);
 
-  /// Records commands, carries them out, and waits.
+  /// Records commands by `record`, executes them, and waits until they are done.
   void run(const std::function<void(VkCommandBuffer)>& record);
-  /// All that was written before is seen by all that follows.
+  /// Adds a barrier: all commands after it see what all commands before it wrote.
   void order(VkCommandBuffer commands) const;
-  /// What is to be freed at the end, in reverse order.
+  /// Calls `destroy` when the device is destroyed; calls made later come first.
   void at_end(std::function<void()> destroy) { at_end_.destroy.push_back(std::move(destroy)); }
 
  private:
@@ -93,7 +93,7 @@ class VulkanDevice {
   AtEnd at_end_;  ///< last, and a member, so that it runs first, and where the constructor throws too
 };
 
-/// Throws std::runtime_error where a call did not succeed.
+/// Throws std::runtime_error, naming `where`, if a Vulkan call did not succeed.
 void check_vulkan(VkResult result, const char* where);
 
 }  // namespace trueshade::oracle

@@ -40,11 +40,11 @@ struct VulkanFunctions {
 #undef MEMBER
 };
 
-/// An instance of Vulkan 1.3, and its functions. Throws Error(no_gl_driver) where there is no libvulkan.so.1.
-///   manifest: of the one driver that the loader is to open; empty: of those that it knows
+/// Makes an instance of Vulkan 1.3 and loads its functions. Error(no_gl_driver) where there is no libvulkan.so.1.
+///   manifest: the file of the one driver that the loader is to open; empty: all drivers that it knows
 VkInstance make_instance(VulkanFunctions& functions, const std::string& manifest);
 
-/// A structure with its type set and all else zero.
+/// A Vulkan structure with its sType set and everything else zero.
 template <typename T>
 T typed(VkStructureType type) {
   T value{};

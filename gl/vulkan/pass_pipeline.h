@@ -9,13 +9,13 @@
 
 namespace trueshade::oracle {
 
-/// A sampler of a pass and where it is bound.
+/// A sampler of a pass, and its binding number.
 struct BoundSampler {
   ShaderVariable variable;
   uint32_t binding = 0;
 };
 
-/// A pass made ready: its pipeline, what its blocks of uniforms hold (vertex, fragment), and its samplers.
+/// A pass made ready to draw: its pipeline, the members of its uniform blocks (vertex, fragment), and its samplers.
 struct PassPipeline {
   VkPipeline pipeline = VK_NULL_HANDLE;
   VkPipelineLayout layout = VK_NULL_HANDLE;
@@ -24,7 +24,7 @@ struct PassPipeline {
   std::vector<BoundSampler> samplers;
 };
 
-/// Lives as long as the device.
+/// Makes a pass ready to draw. What it makes lives as long as the device.
 PassPipeline make_pass_pipeline(VulkanDevice& device, const FrameList& list, const ListedPass& pass);
 
 }  // namespace trueshade::oracle

@@ -9,7 +9,7 @@
 
 namespace trueshade::oracle {
 
-/// What to look at while a frame is drawn.
+/// Functions that are shown the target while a frame is drawn.
 struct VulkanDraw {
   StepSink after_light, after_object;  ///< as of GlDraw
 };
@@ -21,8 +21,8 @@ struct VulkanFrame {
   std::vector<std::string> notes;  ///< where the device could not do what the pipeline says, and what was done instead
 };
 
-/// Draws a scene's frame, before the post chain, on a device that is opened for it: the same list of draws that
-/// `trueshade glsl --api vulkan` writes. Throws Error(no_gl_driver) where there is no device, or not enough of one.
+/// Draws a scene's frame, without the post chain, on a device that is opened for it, from the same list of draws that
+/// `trueshade glsl --api vulkan` writes. Error(no_gl_driver) where there is no device, or it cannot draw the frame.
 VulkanFrame drawn_by_vulkan(const Scene& scene, const Pipeline& pipeline, VulkanDriver driver,
                             const VulkanDraw& draw = {});
 

@@ -12,68 +12,71 @@
 
 namespace trueshade::oracle {
 
-/// A number as a legal arithmetic may have it: anything from low to high, which may be infinite, or NaN where
-/// maybe_nan. `value` is what real arithmetic has. Integers and truth values (0 and 1) alike.
+/// All that a computed number may be: anything from `low` to `high`, which may be infinite, and NaN too where
+/// maybe_nan. `value` is the result of real arithmetic. Integers, and booleans as 0 and 1, are held alike.
 struct Interval {
   double value = 0, low = 0, high = 0;
   bool maybe_nan = false;
 
-  /// A number that is known; NaN is one that may be NaN.
+  /// A number that is known exactly; of NaN, an interval with maybe_nan.
   static Interval of(double x) { return {x, x, x, std::isnan(x)}; }
-  /// A float that was made of the number by one rounding, maybe of another formula.
+  /// One ulp about x to either side: a float that was rounded once from x, or from another formula's value of x.
   static Interval rounded_once(double x) {
     return {x, x - 0x1p-23 * std::fabs(x), x + 0x1p-23 * std::fabs(x), std::isnan(x)};
   }
-  /// Any number, infinity and NaN.
+  /// Any number, infinity or NaN.
   static Interval anything() { return {0, -HUGE_VAL, HUGE_VAL, true}; }
-  /// Whether it is one number.
+  /// Whether the interval holds a single number, and no NaN.
   bool known() const { return low == high && !maybe_nan; }
-  /// Whether a truth value is surely true.
+  /// Of a boolean: whether it is true whatever the interval leaves open.
   bool is_true() const { return low > 0 && !maybe_nan; }
-  /// Whether a truth value is surely false.
+  /// Of a boolean: whether it is false whatever the interval leaves open.
   bool is_false() const { return high <= 0 && !maybe_nan; }
   double size() const { return std::max(std::fabs(low), std::fabs(high)); }  ///< the largest magnitude
 };
 
-/// The interval of a bounded number; anything where its value or its error is NaN.
+/// The interval from value - error to value + error; anything() where the value or the error is NaN.
 Interval interval_of(const Bounded& x);
 
-/// The value, and the distance to the farther end as its error; an infinite error where it may be NaN.
+/// The interval's value, with the distance to the farther end as its error; an infinite error where it may be NaN.
 Bounded bounded_of(const Interval& x);
 
-/// The smallest interval that holds both, with the value of x. It may be NaN where one of both may.
+/// The smallest interval that holds both x and y, with the value of x. It has maybe_nan where x or y has.
 Interval hull(const Interval& x, const Interval& y);
 
 inline constexpr double kLargestFloat = double(std::numeric_limits<float>::max());
 
-/// Whether it holds a number below 2^-126 in size, 0 among them.
+/// Whether the interval holds a number x with |x| < 2^-126, 0 among them.
 inline bool may_be_subnormal(const Interval& x) { return x.low < kSmallestFloat && x.high > -kSmallestFloat; }
 
-/// f(x) of a function that only grows, or only falls, from x.low to x.high: the ends and the value are f of those of x,
-/// without a rounding. May be NaN where x may be, or where f of an end is.
+/// The interval of f(x), for an f that only rises or only falls from x.low to x.high. No rounding of f is added. It may
+/// be NaN where x may be, or where f of an end is.
 template <class F>
 Interval monotone(const Interval& x, F f) {
   const double p = f(x.low), q = f(x.high);
   return {f(x.value), std::min(p, q), std::max(p, q), x.maybe_nan || std::isnan(p) || std::isnan(q)};
 }
 
-/// The operations of op.h over intervals. Every result holds whatever a driver of that arithmetic may compute of
-/// operands that the given intervals hold.
+/// Interval arithmetic for the operations of op.h: each result holds whatever a driver with the given errors may
+/// compute from operands within the given intervals.
 class IntervalArithmetic {
  public:
-  /// By the errors of this arithmetic.
+  /// Takes the bounds on each operation's error.
   explicit IntervalArithmetic(const Arithmetic& arithmetic) : a_(arithmetic) {}
 
-  /// The node's operation on operands x, y, z, of which as many are read as it has. Not for `constant` and `input`.
+  /// Applies the node's operation to x, y, z, of which only as many are read as the operation takes. Not for the
+  /// operations `constant` and `input`.
   Interval operator()(const programs::ProgramNode& node, const Interval& x, const Interval& y, const Interval& z) const;
 
-  /// The sum of two or more terms that a driver may add in any order. `more`: a further error before it is rounded.
+  /// The sum of two or more terms, which a driver may add in any order.
+  ///   more: an absolute error of the terms, beside their intervals
   Interval sum(std::span<const Interval> terms, double more = 0) const;
-  /// A product of products, whose factors a driver may multiply in another order: its roundings are other ones then.
+  /// Widens a product of products by one rounding: a driver may multiply the factors in another order, and then rounds
+  /// other products.
   Interval reordered(const Interval& product) const { return within(product, a_.roundoff); }
-  /// x x, which is never below 0.
+  /// x squared, which is never below 0.
   Interval square(const Interval& x) const;
-  /// What normalize() multiplies a vector by, as WGSL may have it.
+  /// Widens 1 / length, the factor of a GLSL normalize(), to what WGSL's normalize() may have in its place.
   Interval normalizing(const Interval& inverse_root) const { return within(inverse_root, normalize_error(a_)); }
 
  private:

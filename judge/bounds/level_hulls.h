@@ -12,7 +12,8 @@
 
 namespace trueshade::oracle {
 
-/// What a hull is of: a level as it is read, with the border colour if the sampler may read that.
+/// How a level of a texture is read, the key of a stored hull. With `border` the hull holds the sampler's border colour
+/// too; `encoded`: sRGB is not decoded; `codes`: how many of 255 a decoded sRGB texel may be off.
 struct LevelReading {
   const Texture* texture = nullptr;
   size_t level = 0;
@@ -22,25 +23,27 @@ struct LevelReading {
   auto operator<=>(const LevelReading&) const = default;
 };
 
-/// Keeps the hulls and codes of levels. For any number of threads. Textures must outlive it unchanged.
+/// A cache of the least and largest channels of texture levels, and of the codes that occur in them. Any thread may use
+/// it. It borrows the textures, which must not change.
 class LevelHulls {
  public:
   using Hull = std::array<std::array<double, 2>, 4>;  ///< least and largest of R, G, B, A
 
-  /// The hull of a reading; nothing where none was kept.
+  /// The hull that keep() stored for this reading; nothing where it stored none.
   std::optional<Hull> find(const LevelReading& of) const {
     const std::lock_guard lock(mutex_);
     const auto found = hulls_.find(of);
     return found == hulls_.end() ? std::nullopt : std::optional(found->second);
   }
-  /// Keeps the hull of a reading; one that is kept already stays.
+  /// Stores the hull of a reading, unless one is stored already.
   void keep(const LevelReading& of, const Hull& hull) {
     const std::lock_guard lock(mutex_);
     hulls_.emplace(of, hull);
   }
 
   using Codes = std::array<std::bitset<256>, 4>;  ///< of R, G, B, A
-  /// The codes that occur in each channel of a level of 8-bit texels. Reads the whole level at the first call.
+  /// For each channel, which of the codes 0 to 255 occur in a level whose texels are RGBA8. The first call reads the
+  /// whole level; later ones return what it found.
   std::shared_ptr<const Codes> codes_of(const Texture& texture, size_t level) {
     const std::pair key{&texture, level};
     {

@@ -18,7 +18,7 @@ enum class SnapRule : uint8_t {
   unstated,     ///< anywhere within 0.6 of 2^-b: the two above, finer grids and none at all lie inside
 };
 enum class PlaneOrigin : uint8_t { snapped, unsnapped, either };
-/// Which horizontal edge is in, beside the left one. GL window, y up.
+/// Which horizontal edges own the samples that lie on them; left edges always do. Window space, y up.
 enum class FillRule : uint8_t {
   left_low,   ///< the lower one; the upper one where the clip origin is the upper left
   left_high,  ///< the other one of these
@@ -33,7 +33,7 @@ enum class HalfStore : uint8_t {
   through_halves,  ///< to the nearest half, either of two; floats of 11 and 10 bits are that half, cut
                    ///< (SwiftShader)
 };
-/// How the planes of attributes and of 1 / w are made.
+/// How a driver computes the interpolation planes of attributes and of 1 / w.
 enum class PlaneForm : uint8_t {
   differences,  ///< through the vertices of what clipping leaves, by differences of their values
   homogeneous,  ///< sums of the values of all three vertices that were submitted, also those behind the eye, times the
@@ -47,8 +47,8 @@ enum class BlendRule : uint8_t {
 };
 
 /// How far a texture lookup may be from real arithmetic (docs/gl_rules.md section 5). OpenGL states no precision of
-/// weights, of filtering or of decoding; the defaults are what its conformance suite lets pass and what the drivers
-/// measured do.
+/// weights, of filtering or of decoding. The defaults are what its conformance suite lets pass and what measured
+/// drivers do.
 struct Sampling {
   double weight_error = 0x1p-7;       ///< of a weight between texels of 8 bits a channel (VK-GL-CTS: 7 bits of u and v)
   double wide_weight_error = 0x1p-7;  ///< the same of other formats, and of sRGB
@@ -67,21 +67,23 @@ struct Sampling {
   bool operator==(const Sampling&) const = default;
 };
 
-/// How implementations that are known round what they store. A profile may leave more open; the tests of a whole image
-/// ask which of these rules the image follows.
+/// One way to round what is stored, as a known implementation does it. A profile may allow several; statistical tests
+/// of a whole image find out which one the image follows.
 struct StoreRule {
-  double code_reach = 0.5;             ///< |stored code - real code| at most; errors beyond a half are spread evenly
-  bool mesa_codes = false;             ///< llvmpipe's codes of sRGB and of ten bits, and its blending
-  bool sums_in_floats = false;         ///< what is blended is rounded once, when the target is read (softpipe)
+  double code_reach = 0.5;             ///< largest |stored code - real code|; the part beyond a half is taken to be
+                                       ///< spread evenly
+  bool mesa_codes = false;             ///< sRGB and 10-bit codes as llvmpipe stores them, and its blending
+  bool sums_in_floats = false;         ///< blended values are kept in floats and rounded once, when the target is read
+                                       ///< (softpipe)
   HalfStore half = HalfStore::either;  ///< either: not known yet
   bool intel_estimates = false;        ///< of mesa_codes: sRGB by the estimates of Intel's CPUs; else by AMD's
   bool operator==(const StoreRule&) const = default;
 };
 
-/// A rule in one line, such as `codes within 0.6, halves toward zero`.
+/// A rule as one line of text, such as `codes within 0.6, halves toward zero`.
 std::string text(const StoreRule& rule);
 
-/// What one implementation, or a class of them, may do.
+/// What one implementation, or a whole class of them, is allowed to do.
 struct Profile {
   std::string name = "unknown";
   int subpixel_bits = 4;  ///< GL's minimum (GL 4.6, table 23.53), unless the driver says more
@@ -92,30 +94,31 @@ struct Profile {
   bool exact_vertices = false;  ///< clip coordinates and vertex attributes are those of docs/arithmetic.md, bit for bit
   bool exact_planes = false;    ///< attributes are within 1 ulp of the largest vertex value, inside the vertices' hull
   bool clips_to_view = true;    ///< triangles that leave the view may be cut at its sides and snapped again there
-  double unorm_reach = 1.0;     ///< |code - 255 x| a store may reach; 1 is open: an integer is exact
-  /// The same of an encoded sRGB value: drivers approximate the power (docs/data/drivers.md, stores).
+  double unorm_reach = 1.0;     ///< a unorm store may reach |code - 255 x|; 1 excludes 1 itself: an integer is exact
+  /// A sRGB store may reach |code - 255 x| of the encoded value x: drivers approximate the power (docs/data/drivers.md,
+  /// stores).
   double srgb_reach = 1.0;
   HalfStore half = HalfStore::either;
-  StoreRule likely;  ///< what is nominal of all that the knobs allow; resolved() finds it where its `half` is open
+  StoreRule likely;  ///< the rule that is nominal among those allowed; resolved() finds it where its `half` is open
   double least_depth_unit = 1, most_depth_unit = 2;  ///< codes that a unit of polygon offset moves fixed-point depth by
   bool max_norm_slope = false;  ///< polygon offset takes the larger slope; else anything up to their Euclidean norm
   BlendRule blend = BlendRule::any_precision;
-  /// Relative, of reading a unorm texel as float: a division as GLSL has it. Drivers multiply by 1 / (2^b - 1): 1.25
-  /// ulp at most (docs/data/drivers.md, stores).
+  /// The relative error of reading a unorm texel as a float, a division in GLSL. Drivers multiply by 1 / (2^b - 1):
+  /// 1.25 ulp at most (docs/data/drivers.md, stores).
   double fetch_error = 2.5 * 0x1p-23;
   Sampling sampling;
   Arithmetic arithmetic;
 };
 
-/// The profile of a name in kDriverProfileNames; nothing for other names. The half mode of `ideal` follows the pipeline
-/// (resolved()); that of the others is their own.
+/// The profile of a name in kDriverProfileNames; nothing for other names. Of `ideal`, resolved() takes the rounding of
+/// halves from the pipeline; the others state their own.
 std::optional<Profile> profile_named(std::string_view name);
 
-/// A rule of snapping in words.
+/// The snapping rule in words, for reports.
 const char* text(SnapRule rule);
-/// What planes go through, in words.
+/// The vertices that attribute planes go through, in words, for reports.
 const char* text(PlaneOrigin origin);
-/// How halves are stored, in words.
+/// The rounding of halves in words, for reports.
 const char* text(HalfStore store);
 
 }  // namespace trueshade::oracle

@@ -7,11 +7,12 @@
 
 namespace trueshade::oracle {
 
-/// All fields of a profile in a fixed order, a line each: equal profiles are equal texts.
+/// The profile as JSON: all fields in a fixed order, one a line, so that equal profiles give equal texts.
 std::string profile_json(const Profile& profile);
 
-/// Reads a profile. Fields that the text does not give are those of `unknown`. Error(bad_input) with a JSON pointer
-/// behind `where` for what is no JSON, for unknown keys, and for values of another type or out of range.
+/// Reads a profile from JSON. A field that the text lacks has its value in `unknown`. Error(bad_input) for text that is
+/// no JSON, for unknown keys, and for values of another type or out of range; the error names `where` and a JSON
+/// pointer.
 Profile profile_from_json(std::string_view text, std::string_view where);
 
 }  // namespace trueshade::oracle

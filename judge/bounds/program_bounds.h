@@ -15,17 +15,18 @@ namespace trueshade::oracle {
 
 struct ProgramTotal;
 
-/// The pipeline as the judge takes it: with the planes that its light program reads; of a pipeline without a light
-/// program the same. Throws as ProgramBounds does.
+/// The pipeline with the G-buffer planes added that its light program reads; without a light program, the pipeline as
+/// it is. Throws as ProgramBounds does.
 Pipeline with_planes_that_program_reads(const Pipeline& pipeline);
 
-/// What lights add alone, by the order they were asked for in. Kept by the caller from pixel to pixel.
+/// What each of several lights adds by itself to one surface, in the order in which the lights were given. The caller
+/// keeps it from pixel to pixel, so that its memory is reused.
 struct LitApart {
   std::vector<std::array<Bounded, 3>> color;
-  /// 1 where `color` is the only outcome; 0 where a comparison may go either way or the value is undefined, which
-  /// ProgramBounds::alone() tells.
+  /// 1 where `color` is the only outcome. 0 where a comparison may go either way or the value is undefined: then
+  /// ProgramBounds::alone() tells the outcomes.
   std::vector<uint8_t> one_outcome;
-  std::vector<uint8_t> surely_counts, may_count;  ///< as lit, where Block::counts
+  std::vector<uint8_t> surely_counts, may_count;  ///< whether the light counts as lit; only where Block::counts
 };
 
 /// A light program over the lights of a scene, ready for any surface. Borrows the scene, which must outlive it. Where
@@ -38,7 +39,7 @@ class ProgramBounds {
  public:
   static constexpr size_t kMostForks = 4;
 
-  /// One thread's values: of a surface, and of the pair that is looked at.
+  /// One thread's working values: those of a surface, and those of a surface and a light together (a pair).
   struct Registers {
     std::array<std::vector<Interval>, programs::kRateCount> of;
     std::vector<int8_t> decided;  ///< of the pair's nodes: 0 false, 1 true, -1 not decided
@@ -47,65 +48,68 @@ class ProgramBounds {
     uint32_t light = 0;
   };
 
-  /// Compiles the program, and computes what holds for the frame and for each light. Throws as
-  /// programs::program_from_glsl() does; Error(usage) where a parameter has no value.
+  /// Compiles the program, and computes what depends on the frame alone and on each light alone. Throws as
+  /// programs::program_from_glsl() does; Error(usage) where a parameter has no value, Error(limit) for too many lights.
   ProgramBounds(const Scene& scene, const Pipeline& pipeline, const Arithmetic& arithmetic);
-  /// Another program in place of the pipeline's, of the same inputs.
+  /// Takes another program in place of the pipeline's; it must have the same inputs.
   ProgramBounds(const Scene& scene, const Pipeline& pipeline, const Arithmetic& arithmetic, programs::Program program);
 
   /// The program, which lives as long as this object.
   const programs::Program& program() const { return program_; }
-  /// Whether the pipeline has a light program, and not a light model.
+  /// Whether the program is the pipeline's own light program. False where it stands for a light model.
   bool is_users() const { return is_users_; }
 
-  /// The sum of these lights and of what it starts from, before finish(). Undefined where the sum may be NaN.
+  /// What the sum starts from plus the terms of these lights, before finish(); `undefined` where this may be NaN. An
+  /// unlit surface gives 0, as finished() ignores its sum.
   LitRange at(const ShadedSurface& surface, std::span<const uint32_t> lights, Registers& registers) const;
 
-  /// What one light adds, without what a sum starts from.
-  ///   ends: the light ends at its extent, where it has one; false where the extent leaves fragments out, and so is
-  ///         judged apart
+  /// The term of one light, without what the sum starts from; 0 for an unlit surface.
+  ///   ends: the light ends at its extent, where it has one; false where fragments beyond the extent are not drawn,
+  ///         which the caller judges
   LitRange alone(const ShadedSurface& surface, uint32_t light, bool ends, Registers& registers) const;
 
-  /// What is known of surfaces or lights that are judged together. One thread's.
+  /// One thread's working values for surfaces, or lights, that are computed together, one a SIMD lane.
   struct Block {
     std::array<std::vector<LaneInterval>, programs::kRateCount> of;
     std::array<uint8_t, kIntervalLanes> left{}, reached{};
-    bool counts = true;  ///< whether lights_low and lights_high are asked for
+    bool counts = true;  ///< whether lights_low and lights_high of results are wanted
     Registers registers;
   };
 
-  /// Sets `near` to the lights that may add something to any of these surfaces, or count: those whose terms are not
-  /// proved to be 0 by the program's own intervals over all that the surfaces hold.
+  /// Sets `near` to the indices of the lights that may matter to any of these surfaces, ascending. A light is left out
+  /// only where intervals over all that the surfaces hold prove that its term is 0 and that it does not count as lit.
   void take_near(std::span<const ShadedSurface* const> surfaces, Block& block, std::vector<uint32_t>& near) const;
 
-  /// Sets `lit` to alone() of each of these lights, a light a lane. The values are the same; where nothing may be NaN,
-  /// bounds are no smaller.
+  /// Bounds what each of these lights adds to one surface by itself, a light a SIMD lane, and writes that to `lit`. The
+  /// values are those of alone(); the bounds are as wide or wider, except perhaps where a number may be NaN.
   void apart(const ShadedSurface& surface, std::span<const uint32_t> lights, bool ends, Block& block,
              LitApart& lit) const;
 
-  /// What lights add to a surface, before what a sum starts from.
+  /// The terms of a block's lights at one surface, added up, without what the sum starts from.
   struct BlockSum {
     Bounded3 color;
     std::array<double, 3> magnitude{};
     int added = 0, lights_low = 0, lights_high = 0;
   };
-  /// Sets `lit` to at() of each of at most kIntervalLanes surfaces, in lanes. The lights, branches and counts are the
-  /// same; bounds are no smaller where nothing may be NaN.
+  /// Bounds the sum of these lights at each of at most kIntervalLanes surfaces, and writes it to `lit`. Values,
+  /// branches and counts are those that at() gives for one surface; the bounds are as wide or wider, except perhaps
+  /// where a number may be NaN.
   void at(std::span<const ShadedSurface* const> surfaces, std::span<const uint32_t> lights, Block& block,
           std::span<LitRange> lit) const;
 
-  /// What finish() makes of a sum: red, green, blue, alpha; undefined where any of the four may be NaN.
+  /// What finish() returns: red, green, blue, alpha; undefined where any of the four may be NaN.
   struct Finished {
     std::array<Bounded, 4> color;
     bool undefined = false;
   };
-  /// Runs finish() on a sum.
+  /// What finish() makes of a sum of lights. An unlit surface gives its albedo, whatever the sum.
   Finished finished(const ShadedSurface& surface, const Bounded3& sum, Registers& registers) const;
 
-  /// Whether the program reads a field, "surface.uv", or a part of it.
+  /// Whether the program reads an input whose name begins with `field`: "surface.uv", or a part of it.
   bool reads(std::string_view field) const;
 
-  /// Whether the surface shows its albedo, whatever the lights.
+  /// Whether the surface shows its albedo, whatever the lights, because its material is unlit. Always false where the
+  /// program stands for a light model.
   bool is_unlit(const ShadedSurface& surface) const;
 
  private:

@@ -10,21 +10,21 @@
 
 namespace trueshade::oracle {
 
-/// Where a value lies: its rate's values, and the place among them.
+/// Where a value lies: in the values of which rate, and at which index there.
 struct ProgramPlace {
   uint8_t rate = 0;
   uint32_t slot = 0;
 };
-/// A term of a sum.
+/// A term of a sum: where its value lies, and whether it is subtracted.
 struct ProgramTerm {
   ProgramPlace from;
   bool negated = false;
 };
-/// x (1 - a) + y a, which drivers also compute as x + a (y - x).
+/// The places of x, y and a in a sum x (1 - a) + y a, which drivers may also compute as x + a (y - x).
 struct ProgramMix {
   ProgramPlace x, y, a;
 };
-/// A node as it is evaluated.
+/// A node of the program, with the places of its operands and its result, and how it is to be bounded.
 struct ProgramStep {
   programs::ProgramNode node;
   std::array<ProgramPlace, 3> from{};
@@ -38,27 +38,27 @@ struct ProgramStep {
   bool normalizes = false;             ///< the choice of normalize(): undefined of a vector of no length
 };
 
-/// The largest magnitude of a component of a unit vector, however far the vector was off.
+/// A bound on |component| of a normalized vector, by the roundings of normalize() alone: 1 and a little.
 inline double largest_of_unit(const Arithmetic& a) {
   return 1 + 4 * a.roundoff + 2 * a.inverse_sqrt + normalize_error(a);
 }
 
 inline constexpr size_t kIntervalLanes = 64;
 
-/// An Interval a lane. What may be NaN is anything: from -infinity to infinity.
+/// An Interval for each SIMD lane, without maybe_nan: a number that may be NaN is held as -infinity to infinity.
 struct LaneInterval {
   alignas(64) std::array<double, kIntervalLanes> value, low, high;
 
-  /// The interval of a lane; it may be NaN where it reaches from -infinity to infinity.
+  /// The interval of one lane, with maybe_nan where it reaches from -infinity to infinity.
   Interval at(size_t lane) const;
-  /// Sets a lane; to anything where x may be NaN.
+  /// Stores an interval in one lane: from -infinity to infinity where x may be NaN.
   void set(size_t lane, const Interval& x);
-  /// The hull of the first lanes, one or more.
+  /// The smallest interval that holds the first `count` lanes; count is at least 1.
   Interval hull(size_t count) const;
 };
 
-/// What run_program_lanes() reads and writes. The values of each rate are one for all lanes, or lanes; `out` is where
-/// the steps' own results go.
+/// What run_program_lanes() reads and writes. The values of a rate lie in `one`, the same for all lanes, or in `lanes`.
+/// The steps' own results go to `out`. Borrows all.
 struct ProgramLanes {
   std::span<const ProgramStep> steps;
   std::span<const ProgramTerm> terms;
@@ -71,8 +71,8 @@ struct ProgramLanes {
   size_t count = kIntervalLanes;  ///< lanes that are asked for: the first
 };
 
-/// Runs the steps over all lanes: writes in.out and, if it is asked for, in.left. Results hold those of ProgramBounds
-/// one by one, but where lanes are left; they are wider by no more than what NaN makes of the others.
+/// Runs the steps over all lanes: writes in.out and, where it is not null, in.left. In lanes that are not left, a
+/// result holds the interval that ProgramBounds computes one by one; it is wider only where a number may be NaN.
 void run_program_lanes(const ProgramLanes& in);
 
 }  // namespace trueshade::oracle

@@ -9,14 +9,14 @@
 
 namespace trueshade::oracle {
 
-/// Adds up what lights give to one surface, and by how much the roundings of these additions may move the sum: the
-/// bound of docs/gl_rules.md section 6.
+/// Adds up what lights give to one surface, and bounds how far the roundings of the additions may move the sum
+/// (docs/gl_rules.md section 6). `magnitude`: the sum of the terms' largest sizes; `added`: how many terms are not 0.
 struct ProgramTotal {
   LitRange lit;
   std::array<double, 3> magnitude{};
   int added = 0;
 
-  /// Sets channel k of what the sum starts from. Called for each channel, before any light is added.
+  /// Sets channel k (0 to 2) of what the sum starts from. Call it for each channel before any light is added.
   void start(size_t k, const Interval& x) {
     lit.color[k] = bounded_of(x);
     lit.undefined = lit.undefined || x.maybe_nan || !std::isfinite(lit.color[k].error);
@@ -24,9 +24,9 @@ struct ProgramTotal {
     if (magnitude[k] > 0) added = 1;
   }
 
-  /// Adds one light.
-  ///   outcomes: what it may add, one for each way that comparisons may go
-  ///   nominal:  the outcome of real arithmetic; nothing where, nominally, the light does not reach the surface
+  /// Adds one light's term, RGB.
+  ///   outcomes: what the term may be, one for each way that comparisons may go
+  ///   nominal:  index of the outcome of real arithmetic; nothing where, by it, the light does not reach the surface
   ///   perhaps_nothing: the light may not reach the surface
   void add(std::span<const std::array<Interval, 3>> outcomes, std::optional<size_t> nominal, bool perhaps_nothing) {
     std::array<Bounded, 3> chosen{};
@@ -54,7 +54,8 @@ struct ProgramTotal {
     if (perhaps_nothing && nominal) add(none, chosen);
   }
 
-  /// Adds another result of a light: as a branch or, where it lies within the bound of the chosen one, to the error.
+  /// Adds another outcome of a light that is added already, given as its difference to the chosen one. It widens the
+  /// error where it lies within the chosen one's bound in every channel; otherwise it becomes a branch.
   void add(const OtherBranch& other, const std::array<Bounded, 3>& chosen) {
     bool differs = false;
     for (size_t k = 0; k < 3; ++k) differs = differs || !(std::fabs(other.change[k]) <= chosen[k].error);
@@ -65,7 +66,7 @@ struct ProgramTotal {
     lit.branches.push_back(other);
   }
 
-  /// Adds what lights of a block add, and sets the counts of lights to theirs.
+  /// Adds the lights of a block to the sum. The counts of lights are set to the block's, not added.
   void add(const ProgramBounds::BlockSum& sum) {
     added += sum.added;
     lit.lights_low = sum.lights_low, lit.lights_high = sum.lights_high;
@@ -75,7 +76,8 @@ struct ProgramTotal {
     }
   }
 
-  /// The sum, with what the roundings of its additions may move it by in its error. Called once, at the end.
+  /// Returns the sum, after its error is widened by the roundings of the additions. Call it once, at the end.
+  ///   roundoff: relative error of one addition
   LitRange finished(double roundoff) {
     for (size_t k = 0; k < 3 && added > 1; ++k)
       lit.color[k].error += (added - 1) * roundoff * (magnitude[k] + lit.color[k].error);

@@ -8,7 +8,7 @@
 
 namespace trueshade::oracle {
 
-/// A texel of the G-buffer as the light pass reads it.
+/// A pixel's surface as the light pass reads it from the G-buffer, with bounds on what a shader fetches.
 struct ShadedSurface {
   Bounded3 position, normal;
   std::array<Bounded, 4> albedo;
@@ -23,12 +23,12 @@ struct ShadedSurface {
   std::array<int, 2> pixel{};         ///< column and row from the lower left
 };
 
-/// A light whose comparison with its threshold may go either way: what the other branch adds to the sum.
+/// A comparison of one light that may go either way: how the sum of the lights, RGB, changes if it goes the other way.
 struct OtherBranch {
   std::array<double, 3> change{};
 };
 
-/// What lights may add up to at a surface.
+/// What the lights may add up to at a surface: the nominal sum with its error, and what branches may change.
 struct LitRange {
   Bounded3 color;  ///< the nominal branches, all lights summed
   std::vector<OtherBranch> branches;

@@ -15,22 +15,22 @@ namespace trueshade::oracle {
 
 using Pair = std::array<double, 2>;
 
-/// A vertex in window pixels, y up, and what float arithmetic and snapping may make of it.
+/// A vertex in window space, pixels, y up, with the places that float arithmetic and snapping may give it.
 struct WindowVertex {
   Pair exact{};                    ///< of the real coordinates: equal where two triangles share the vertex
-  Pair low{}, high{};              ///< the box of the snapped vertex, that coverage is computed from
+  Pair low{}, high{};              ///< the box that the snapped vertex lies in; coverage is computed from it
   Pair plane{}, plane_reach{};     ///< the vertex that attribute planes go through: within reach of plane
   Pair float_reach{};              ///< what float arithmetic alone makes of `exact`
   double z = 0, z_error = 0;       ///< window depth
   double u = 0, u_error = 0;       ///< 1 / w
-  std::array<double, 3> weight{};  ///< in clip space, of the vertices of the triangle submitted
-  /// The same in the window, where attributes that are noperspective vary linearly (GL 4.6 core, 13.7.1), and how far
-  /// each may be off.
+  std::array<double, 3> weight{};  ///< the vertex as a sum, in clip space, of the submitted triangle's three
+  /// The same weights in the window, where attributes that are noperspective vary linearly (GL 4.6 core, 13.7.1), and
+  /// how far each may be off.
   std::array<double, 3> linear{};
   double linear_error = 0;
 };
 
-/// A triangle, or a piece of the fan of a clipped one.
+/// A triangle in the window; where clipping cuts a triangle, one of the triangles that it leaves.
 struct Piece {
   std::array<WindowVertex, 3> v;
   bool cut = false;          ///< by near, far or w
@@ -46,32 +46,33 @@ struct Piece {
   std::shared_ptr<const std::array<WindowVertex, 3>> submitted{};
 };
 
-/// How surely a piece has a sample.
+/// Whether a piece covers a sample.
 enum class Cover : uint8_t { no, maybe, certain };
 
-/// How a piece covers a sample; edge i runs from vertex i+1 to vertex i+2. The interval of an edge: with A and B the
-/// ends relative to the sample, each coordinate in its own interval, E = Ax By - Ay Bx; the four occur once each, so
+/// How a piece covers a sample. Edge i runs from vertex i+1 to vertex i+2. With A and B the edge's ends relative to the
+/// sample, each coordinate anywhere in its box, the edge function is E = Ax By - Ay Bx. The four occur once each, so
 /// interval arithmetic gives the exact hull. It contains the sum (|dx| + |dy|) e_v of docs/gl_rules.md section 9.
 struct Coverage {
   Cover cover = Cover::no;
-  unsigned uncertain_edges = 0;  ///< bit i: the edge's interval contains 0
+  unsigned uncertain_edges = 0;  ///< bit i: 0 lies in the interval of edge function i
   double chance_other = 0;       ///< predicted probability that the sample is not where nominal vertices put it
   bool nominal = true;           ///< covered where every interval is at its middle
 };
 
-/// The coverage of the sample (x, y), pixels, y up. Cover::maybe at best where the piece's facing is not known.
-///   edges: bit i: edge i is looked at; the others are known to have the sample inside
+/// How the piece covers the sample (x, y), pixels, y up. Cover::maybe at best where the piece's facing is not known.
+///   edges: bit i: test edge i; the sample is known to lie inside of the others
 Coverage coverage_at(const Piece& piece, const Profile& profile, ClipOrigin origin, double x, double y,
                      unsigned edges = 7);
 
-/// What coverage_at() says of every sample of a box, corners included. An edge function is affine in the sample, so its
-/// extremes are at corners.
+/// What holds for every sample of a box, corners included. An edge function is affine in the sample, so its extremes
+/// are at the corners.
 struct BoxCoverage {
   bool none = false;   ///< no sample is covered
-  unsigned edges = 7;  ///< bit i: some sample may not be inside of edge i; 0: all are certain
+  unsigned edges = 7;  ///< bit i: some sample of the box may lie outside of edge i; 0: all are covered for certain
 };
 
-/// The coverage of every sample of a box. Nothing is known where the piece's facing is not.
+/// How the piece covers the samples from `low` to `high`, pixels, y up. The defaults, which promise nothing, where the
+/// piece's facing is not known.
 BoxCoverage coverage_of_box(const Piece& piece, const Pair& low, const Pair& high);
 
 /// Whether the sample (x, y) lies to the left of a -> b by the vertices' `exact` places: by the sign of twice the area
@@ -79,28 +80,28 @@ BoxCoverage coverage_of_box(const Piece& piece, const Pair& low, const Pair& hig
 /// mesh has a definite winding number about every sample.
 bool nominally_left(const WindowVertex& a, const WindowVertex& b, double x, double y);
 
-/// Vertices of a scene into the window, under a profile.
+/// Transforms a scene's triangles to window space, and bounds how far an implementation of a profile may place them.
 class Projector {
  public:
   /// Borrows the scene.
-  /// drawn_at: the window pixel that the picture's lower left one was. GL's rules move with it (14.2); floats do not.
-  /// hulls: of the scene's textures, as another projector of the scene knows them; null: none are known.
+  ///   drawn_at: the window pixel at the picture's lower left. GL's rules move with it (14.2); float errors do not.
+  ///   hulls: hulls of the scene's textures that another projector found; null: none are known
   Projector(const Scene& scene, const Pipeline& pipeline, const Profile& profile, std::array<int, 2> drawn_at = {},
             std::shared_ptr<LevelHulls> hulls = nullptr);
 
-  /// Whether the triangle may have a sample; then sets `rect` to the pixels that it may have, y up. Cheap: most
-  /// triangles of a fine mesh have none.
+  /// Whether any sample of the picture may lie in the triangle. If so, sets `rect` to the pixels that may, y up. Cheap:
+  /// most triangles of a fine mesh have no sample.
   bool near_pixels(uint32_t instance, uint32_t triangle, PixelRect& rect) const;
 
-  /// Sets `out` to the pieces that are left of the triangle after near, far and w; to none where a clip coordinate is
+  /// Sets `out` to the triangle's pieces: what the near and far planes and w > 0 leave. None where a clip coordinate is
   /// NaN or infinite.
   void pieces(uint32_t instance, uint32_t triangle, std::vector<Piece>& out) const;
 
-  /// Clip coordinates as floats in the order of docs/arithmetic.md: equal ones make equal fragments (GL 4.6, appendix
-  /// A).
+  /// The clip coordinates of the three vertices, in floats, in the order of operations of docs/arithmetic.md. Triangles
+  /// with equal clip coordinates make equal fragments (GL 4.6, appendix A).
   std::array<std::array<float, 4>, 3> clip_of(uint32_t instance, uint32_t triangle) const;
 
-  /// The largest |x|, |y| of the viewport in the driver's window, where planes are made.
+  /// The largest |x|, |y| of the viewport in the driver's window, pixels: planes are set up in these coordinates.
   const Pair& window_reach() const { return window_reach_; }
   /// The camera's matrix, in double.
   const Matrix4& clip_from_world() const { return clip_from_world_; }
@@ -112,9 +113,9 @@ class Projector {
   const Scene& scene() const { return scene_; }
   /// The hulls of the scene's textures, for another projector of the scene.
   const std::shared_ptr<LevelHulls>& level_hulls() const { return level_hulls_; }
-  /// Pixels of the picture.
+  /// The picture's width in pixels.
   int width() const { return pipeline_.width; }
-  /// Pixels of the picture.
+  /// The picture's height in pixels.
   int height() const { return pipeline_.height; }
 
  private:

@@ -4,10 +4,10 @@
 
 namespace trueshade::oracle {
 
-/// likely_parameters() of a fault of Search::one_light: the two lights at most whose change explains most, each with
-/// the fault's numbers, such as an offset of the light's position, by least squares. Empty where tiles are supposed,
-/// and where no light fits: its numbers are not finite, it is dark then, or it is a light that is missing or drawn
-/// twice. Tries the scene's first 1024 lights.
+/// likely_parameters() for a fault of Search::one_light: tries to change each of the scene's first 1024 lights, such as
+/// by an offset of its position, with the fault's numbers fitted by least squares. Returns the two lights at most whose
+/// change explains most. A light does not fit where its numbers are not finite, where it is dark then, and where the
+/// picture rather shows that it is missing or drawn twice. Empty where none fits, and where tiles are supposed.
 std::vector<FaultParameter> changed_lights(const PictureCase& picture, const PictureSupposition& supposed,
                                            const PictureFault& fault, const std::vector<SampledPixel>& pixels,
                                            const std::vector<double>& off_if_right);

@@ -10,7 +10,8 @@
 
 namespace trueshade::oracle {
 
-/// The numbers of one pixel, before any plane's format rounds them. Where nothing is drawn all but the depth are 0.
+/// The numbers that all planes hold at one pixel, before their formats round them. All but the depth are 0 where
+/// nothing is drawn.
 struct PlaneValues {
   bool covered = false;
   double object = 0, material = 0;  ///< index + 1
@@ -21,21 +22,21 @@ struct PlaneValues {
   std::array<double, 4> specular{}, emission{};  ///< with the shininess, and with the share of ambient light
 };
 
-/// The likeliest values, and both ends of what is legal.
+/// The nominal numbers of a pixel, and the least and largest that are legal.
 struct ExpectedPixel {
   PlaneValues value, low, high;
   uint32_t triangle = 0;  ///< of the object's mesh
 };
 
-/// What each pixel of a G-buffer should hold. A pixel is made when it is first asked for, and kept.
+/// What each pixel of a G-buffer should hold. A pixel is computed when it is first asked for, and kept.
 class ExpectedPlanes {
  public:
-  /// Finds the possible surfaces of all pixels. Borrows the scene.
-  ///   drawn_at: the window pixel that the picture's lower left one was
+  /// Finds the surfaces that each pixel may show. Borrows the scene.
+  ///   drawn_at: the window pixel at the picture's lower left
   ExpectedPlanes(const Scene& scene, const Pipeline& pipeline, const Profile& profile, std::array<int, 2> drawn_at);
-  /// The pixel's numbers; from any thread. Where nothing is drawn, they are 0, and the depth is the clear depth.
+  /// What the pixel should hold; any thread may ask. Where nothing is drawn, 0 and the clear depth.
   ExpectedPixel at(int x, int y_top) const;
-  /// Whether a surface is nominally seen.
+  /// Whether a surface is nominally seen at the pixel.
   bool covered(int x, int y_top) const;
 
  private:

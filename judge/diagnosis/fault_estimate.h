@@ -4,10 +4,10 @@
 
 namespace trueshade::oracle {
 
-/// Parameters with which the fault, beside those that are supposed already, explains most of `pixels`; the best first.
-/// At least one, unless the fault has a parameter that nothing points at. Predicts the pixels some dozens of times or
-/// more where the parameter is searched for.
-///   off_if_right: steps that each of `pixels` is off without any fault
+/// The parameters with which a fault, supposed beside other faults, explains most of `pixels`; the best first. A fault
+/// without a parameter gives one that means nothing. Empty where nothing points at a parameter. Where the parameter
+/// is searched for, predicts the pixels some dozens of times or more.
+///   off_if_right: how many steps each of `pixels` is off without any fault
 std::vector<FaultParameter> likely_parameters(const PictureCase& picture, const PictureSupposition& supposed,
                                               const PictureFault& fault, const std::vector<SampledPixel>& pixels,
                                               const std::vector<double>& off_if_right);

@@ -12,7 +12,7 @@
 
 namespace trueshade::oracle {
 
-/// One channel of one pixel that the fault explains: what is right there, what was given, what the fault predicts.
+/// One channel of one pixel as evidence of a fault: what is right there, what was captured, what the fault predicts.
 struct Proof {
   int x = 0, y = 0;   ///< from the top left
   std::string plane;  ///< `color.R`; unorm values are codes
@@ -21,7 +21,7 @@ struct Proof {
   bool anything = false;  ///< the fault predicts no number there: `predicted` is what was given
 };
 
-/// A fault that explains pixels which are not what they should be.
+/// A fault that explains pixels of a capture which are not as they should be.
 struct Finding {
   std::string name;          ///< of the fault, with its parameter: `light-range=1.01`; what `--suppose` takes
   std::string plane;         ///< that is wrong: `picture`, `normal`, ..., or `G-buffer`
@@ -42,23 +42,23 @@ struct Finding {
   std::string command;  ///< that shows it: of who asked; diagnose() leaves it empty
 };
 
-/// What explains a capture that does not pass, at most `most` findings, the likeliest first, those behind that are but
-/// `partial`; none where no known fault explains a third of what is wrong, and where nothing is wrong. Works on samples
-/// of some thousands of pixels, the same ones every time. Finds the possible surfaces of the whole picture again for
-/// each fault that draws otherwise.
-///   stages: of validate_capture(), by the same pipeline and profile
+/// The faults that explain a capture which does not pass, at most `most`, the likeliest first; those that are only
+/// `partial` come last. None where no known fault explains a third of what is wrong, and where nothing is wrong. Works
+/// on samples of some thousands of pixels, the same ones every time. For each fault that draws other surfaces it finds
+/// the surfaces of the whole picture again, which takes long.
+///   stages: the verdicts of validate_capture(), by the same pipeline and profile
 ///   supposed: names of faults; if there are any, these are tried and no others
 /// Error(usage) for a name that no fault has, or a parameter that the fault does not take.
 std::vector<Finding> diagnose(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                               const Capture& capture, std::span<const StageVerdict> stages,
                               std::span<const std::string> supposed = {}, size_t most = 3);
 
-/// A fault that is known: its name with its parameter's form, the plane that it changes, and what it says.
+/// A known fault: its name with the form of its parameter, the plane that it changes, and its sentence.
 struct KnownFault {
   std::string name, plane, text;
 };
 
-/// All faults that are known, for help and documents.
+/// All known faults, for help and documents.
 std::vector<KnownFault> known_faults();
 
 /// Findings as JSON: an array of {name, plane, text, changed, explained, contradicted, together, alone, located, left,

@@ -1,5 +1,5 @@
 #pragma once
-// Three numbers by least squares, from residuals of which many may have another cause.
+// Fits three numbers by least squares, where many residuals may have another cause.
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -10,13 +10,13 @@
 
 namespace trueshade::oracle {
 
-/// A symmetric system of three equations.
+/// The normal equations a x = b of a step with three unknowns; `a` is symmetric.
 struct NormalEquations {
   std::array<Triple3, 3> a{};
   Triple3 b{};
 
-  /// The solution of a x = b once each element of the diagonal has grown by `damping` times itself; nothing where the
-  /// system is singular.
+  /// Solves them after each diagonal element is increased by `damping` times itself (and a 1e-6 of the trace). Nothing
+  /// where the system is singular.
   std::optional<Triple3> solved(double damping) const {
     std::array<Triple3, 3> m = a;
     // A direction has a length to spare, along which nothing pulls: the trace keeps steps from growing there.
@@ -30,26 +30,26 @@ struct NormalEquations {
   }
 };
 
-/// The residual of each measurement at three numbers, always as many residuals. NaN or infinite: there is nothing to
-/// compare.
+/// Computes the residual of each measurement for three numbers; always as many residuals. One that is NaN or infinite
+/// cannot be compared.
 using Residuals = std::function<std::vector<double>(const Triple3& at)>;
 
-/// What three numbers are fitted to.
+/// A problem of least squares: which numbers are fitted to which residuals.
 struct LeastSquares {
   Residuals residuals;
   int numbers = 3;                 ///< how many of the three are fitted
-  double size = 1e-4;              ///< of a small change of a number
+  double size = 1e-4;              ///< the difference that slopes are measured by
   std::span<const double> scales;  ///< residuals beyond which another cause is likely; descending
-  double none = 0;                 ///< the value of a number that changes nothing
+  double none = 0;                 ///< the value of a number that stands for no change
 };
 
-/// The sum of residuals by Cauchy's rule, log(1 + (r / scale)^2), each 20 at most. One that is NaN or infinite counts
-/// for 20, or for 1 at scales below 1e-3.
+/// The sum over all residuals of log(1 + (r / scale)^2), Cauchy's rule, each at most 20. A residual that is NaN or
+/// infinite counts as 20, or as 1 at scales below 1e-3.
 double robust_error(const std::vector<double>& residuals, double scale);
 
-/// The numbers that fit best, from `at` by Levenberg and Marquardt's steps, with each scale in turn; at the middle one
-/// it looks about along each number too. Then numbers whose change shows in no residual are set to `none`, and all are
-/// rounded to the coarsest unit that fits as well, where one does. Asks for the residuals some hundreds of times.
+/// Fits the numbers, beginning at `at`, by steps of Levenberg and Marquardt, at each scale in turn; at the middle scale
+/// it also tries steps along each number. Then sets numbers that hardly change the residuals to `none`, and rounds all
+/// to the coarsest unit that fits as well, if one does. Asks for the residuals some hundreds of times.
 Triple3 fitted(const LeastSquares& problem, Triple3 at);
 
 }  // namespace trueshade::oracle

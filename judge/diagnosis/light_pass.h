@@ -15,7 +15,7 @@
 
 namespace trueshade::oracle {
 
-/// A surface as the light pass reads it.
+/// A pixel's surface as the light pass reads it, in double, without bounds on errors.
 struct PlainSurface {
   bool covered = false;
   std::array<double, 3> position{}, normal{}, specular{}, emission{};
@@ -28,7 +28,7 @@ struct PlainSurface {
   bool unlit = false;  ///< shows its albedo, whatever the program
 };
 
-/// What a wrong light pass does otherwise than its light model says. The defaults are right.
+/// What a wrong light pass does differently from its light model. The defaults are right.
 struct LightFault {
   enum class Distance : uint8_t { right, once, squared };  ///< d where d^2 is due; d^2 where d is
   enum class Half : uint8_t { right, viewer_turned, light_turned, reflected, no_viewer };
@@ -56,7 +56,7 @@ struct LightFault {
 
 class PlainProgram;
 
-/// The lights and how they are drawn; a fault may have changed any of it.
+/// The lights and how they are drawn; a fault may have changed any part.
 struct LightPass {
   Camera camera;
   Pipeline pipeline;
@@ -65,50 +65,51 @@ struct LightPass {
   std::array<double, 3> axis{};                 ///< oracle::view_axis() of the camera
   std::array<std::array<double, 3>, 3> view{};  ///< view_axes() of the camera
   glm::vec4 clear{0.0f};
-  /// The eye by which meshes are drawn, whatever the lights take for it; nothing: they are drawn along `view[2]`.
+  /// The eye that light meshes are drawn from, whatever the lights take for the eye; nothing: an orthographic camera,
+  /// which draws them along `view[2]`.
   std::optional<std::array<double, 3>> drawn_from{};
   std::shared_ptr<const LightShapes> shapes{};  ///< null: no light is drawn as a mesh
   /// The light program, instead of the light model, which then has no terms; null: there is none.
   std::shared_ptr<const PlainProgram> program{};
 };
 
-/// The pass that is right. Where the pipeline has a light program, makes that, and empties the light model.
+/// The right pass of this scene. A pipeline's light program becomes `program`, and the light model is emptied.
 LightPass light_pass_of(const Scene& scene, const Pipeline& pipeline);
 
-/// RGBA of one pixel.
+/// The RGBA that is predicted for one pixel.
 struct PredictedPixel {
   std::array<double, 4> stored{};  ///< as PlaneView::stored() has it: codes, or floats
   std::array<double, 4> value{};   ///< before the store; of strategies that blend, the value of `stored`
 };
 
-/// One light in the order of drawing, and what the pixel stands for once it is added.
+/// One light that was drawn, in the order of drawing, and the pixel's value after it.
 struct TracedLight {
   uint32_t light = 0;
   bool in_range = true, adds = false;
   std::array<double, 4> value{};
 };
 
-/// What the pass makes of a pixel that shows `surface`; where that is not covered, the clear color.
+/// Predicts what the pass stores at a pixel that shows `surface`; the clear colour where that is not covered.
 ///   listed: whether each light is in the list that the pixel is lit from; null: all are
-///   trace: if not null, the lights that are drawn are appended in the order in which they are added; not the first one
-///          of forward-multipass, which is stored
+///   trace: if not null, the drawn lights are appended in the order in which they are added; not the first one of
+///          forward-multipass, which is stored instead of added
 PredictedPixel predicted_pixel(const LightPass& pass, const PlainSurface& surface,
                                const std::vector<uint8_t>* listed = nullptr, std::vector<TracedLight>* trace = nullptr);
 
-/// The code or float that the target stores for a value.
+/// The code or float that the target stores for a value, by a rule that a fault may have changed.
 double stored_value(const Pipeline& pipeline, LightFault::Store rule, double value, int channel);
-/// The value that a stored code or float stands for: a float itself, a code as a number from 0 to 1, decoded from sRGB
-/// where the channel is encoded.
+/// The value that a stored code or float stands for: of a float itself, of a code a number from 0 to 1, decoded from
+/// sRGB where the channel is encoded.
 double value_of_stored(Format target, double stored, int channel);
 
-/// A light that adds something to a pixel, and what all its fragments add.
+/// A light that adds something to a pixel, and the RGB that all its fragments add together.
 struct LightAdded {
   uint32_t light = 0;
   std::array<double, 3> term{};
 };
 
-/// The lights that add something to the pixel, by ascending index, with the albedo in their terms. None of an unlit
-/// surface under a light program. Faults that choose lights are not regarded.
+/// The lights that add something to a surface's pixel, by ascending index, with what they add times the albedo. None
+/// for an unlit surface under a light program. Ignores faults that leave lights out or draw them twice.
 std::vector<LightAdded> lights_added(const LightPass& pass, const PlainSurface& surface);
 
 }  // namespace trueshade::oracle

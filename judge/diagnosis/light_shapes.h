@@ -9,23 +9,23 @@
 
 namespace trueshade::oracle {
 
-/// A ray from an origin; places on it are counted in lengths of the direction.
+/// A ray: the point origin + t direction for each t.
 struct Ray {
   Triple3 origin, direction;
 };
 
-/// Where a ray enters a mesh and where it leaves it; below 0 behind the origin.
+/// The t of a ray at which it enters a mesh, and at which it leaves it; below 0 behind the origin.
 struct Crossing {
   double enters, leaves;
 };
 
-/// A light's mesh about the origin, as its faces' planes.
+/// A light's mesh, centred at the origin, as the planes of its faces.
 class ConvexMesh {
  public:
-  /// Joins triangles of one flat face.
+  /// Triangles of one flat face become one plane.
   explicit ConvexMesh(const LightMesh& mesh);
-  /// Where the line of a ray crosses the mesh; nothing where it misses. Of a ray that also crosses the sphere within
-  /// the mesh, and begins outside the sphere about it, the places are those of the sphere within.
+  /// Where the line of a ray crosses the mesh; nothing where it misses. For speed, a ray that begins outside the mesh's
+  /// circumsphere and crosses its insphere gets the places where it crosses the insphere.
   std::optional<Crossing> crossed_by(const Ray& ray) const;
 
  private:
@@ -37,14 +37,14 @@ class ConvexMesh {
   double inner_ = 0, outer_ = 0;  ///< radii of spheres about the origin, in the mesh and about it; inner_ 0: none is
 };
 
-/// The meshes of a pipeline's lights.
+/// The meshes that a pipeline's lights are drawn as.
 class LightShapes {
  public:
-  /// Makes the mesh of each extent that is one.
+  /// Makes the unit mesh of each extent that is drawn as a mesh.
   explicit LightShapes(const LightVolumes& volumes);
-  /// How many fragments of the light's mesh the pixel has that shows the ray's direction: as under depth clamp, without
-  /// what the grid of the window's vertices moves. 0 to 2; 0 where the light's range is not above 0.
-  ///   extent: of the light's drawn_extent(), a mesh
+  /// How many fragments of the light's mesh cover the pixel that the ray goes through: 0 to 2, counted as under depth
+  /// clamp, and without what snapping to the window's grid moves. 0 where the light's range is not above 0.
+  ///   extent: the light's drawn_extent(), one that is drawn as a mesh
   int fragments(const Light& light, LightExtent extent, const Ray& ray) const;
 
  private:

@@ -7,8 +7,8 @@
 
 namespace trueshade::oracle {
 
-/// Explains a picture by up to four lights that are missing, everywhere or at some pixels as in a shadow. They are
-/// chosen one after the other, by how much their absence explains, of the 64 that add most. Nothing where a fifth of
+/// Explains a picture by lights that are missing, everywhere or at some pixels as in a shadow. Of the 64 lights that
+/// add most it chooses up to four, one after the other, by how much their absence explains. Nothing where a fifth of
 /// the difference or more is left.
 std::optional<LightQuotient> missing_lights(const LightShares& shares);
 

@@ -1,6 +1,6 @@
 #pragma once
-// The outline of an object. Where an object is moved along one of its faces, the captured values on the face stay as
-// they are, and only the outline tells how far it is moved.
+// The outline of an object in the plane of identifiers. Where an object is moved along one of its faces, the values on
+// the face stay as they are, and only the outline tells how far it moved.
 #include <functional>
 #include <optional>
 
@@ -10,20 +10,21 @@
 
 namespace trueshade::oracle {
 
-/// The pixels on both sides of an object's outline in the plane of identifiers; 1500 at most, spread over all of it.
-/// Empty where this plane was not captured.
+/// The pixels on both sides of an object's outline, as captured in id.object; 1500 at most, spread over all of it.
+/// Empty where id.object was not captured.
 std::vector<SampledPixel> outline_of(const PlaneEvidence& evidence, uint32_t object);
 
-/// An object's outline, and the sample. Borrows the evidence.
+/// An object's outline as captured, and the sampled pixels, to be compared with sketches of the object.
 class ObjectBorder {
  public:
-  /// Empty where identifiers were not captured, and for meshes of more than 20,000 triangles.
+  /// empty() where id.object was not captured, and for meshes of more than 20,000 triangles. Does not keep the
+  /// evidence.
   ObjectBorder(const PlaneEvidence& evidence, uint32_t object);
 
-  /// Draws the scene's object alone, and counts the pixels that show it and are not drawn, or are drawn and do not show
-  /// it. A pixel that shows a nearer surface does not count.
+  /// Draws the scene's object alone, and counts the pixels where the drawing and the capture disagree on whether the
+  /// object is seen. Pixels where the capture shows a nearer surface do not count.
   int mismatches(const Scene& scene, const Pipeline& pipeline);
-  /// Whether there are no pixels to compare.
+  /// Whether there are no pixels to compare with.
   bool empty() const { return places_.empty(); }
 
  private:
@@ -33,9 +34,9 @@ class ObjectBorder {
   std::optional<Sketch> sketch_;
 };
 
-/// The numbers of a fault that cost least, for a cost that changes in steps, as a count of pixels does. Looks from `at`
-/// along each number, takes the middle of those that cost as little, and rounds it as people write numbers. Asks for
-/// the cost some hundreds of times.
+/// Finds the numbers of a fault that cost least, for a cost that changes in jumps, as a count of pixels does. Looks
+/// from `at` along each number, takes the middle of the values that cost as little, and rounds them as people write
+/// numbers. Asks for the cost some hundreds of times.
 ///   numbers: how many of the three are looked for
 ///   size: of a small change of a number
 Triple3 settled(const std::function<double(const Triple3&)>& cost, int numbers, double size, Triple3 at);

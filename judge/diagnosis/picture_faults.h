@@ -12,13 +12,13 @@ namespace trueshade::oracle {
 
 using Color = std::array<double, 4>;
 
-/// Where the pixel that is shown came from.
+/// How the picture is flipped and shifted.
 struct Move {
   bool flip_x = false, flip_y = false;
   int x = 0, y = 0;  ///< added afterwards, from the top left; outside, the edge's pixel
 };
 
-/// How a fault's parameter is found.
+/// How a fault's parameter is found where nobody gives it.
 enum class Search : uint8_t {
   none,            ///< it has none
   one_of,          ///< the best of `starts`
@@ -31,7 +31,7 @@ enum class Search : uint8_t {
   vector           ///< three numbers of all lights, by least squares
 };
 
-/// A row of the tables of picture faults.
+/// A row of the tables of picture faults: what a renderer does wrong, and how it changes the prediction.
 struct PictureFault {
   std::string_view name, text;  ///< text: `%s` stands for the parameter, `%v` for its vector
   void (*light)(LightPass&, double) = nullptr;
@@ -45,7 +45,7 @@ struct PictureFault {
   int tile = 0;      ///< side in pixels of tiles lit by a neighbour's light list; the parameter says which
   std::string (*says)(double) = nullptr;  ///< the parameter in words; null: the number
   int stale = 0;                          ///< side in pixels of tiles, a few of which hold something else
-  /// Of Search::one_light: changes the light by the vector; `start` is the vector that changes nothing.
+  /// For Search::one_light: changes the light by the vector. A vector of `start` changes nothing.
   void (*one_light)(Light&, const std::array<double, 3>& vector) = nullptr;
   bool (*of_light)(const Light&) = nullptr;                               ///< whether the light can have the fault
   double start = 0;                                                       ///< of each component
@@ -54,7 +54,7 @@ struct PictureFault {
   std::span<const std::array<double, 3>> from{};                          ///< other vectors to start from
   bool counts = false;  ///< the lists of `tile` are its own, and hold the parameter's number of lights at most
 
-  /// Which numbers the fault has.
+  /// Which numbers the fault's parameter has.
   ParameterForm form() const {
     if (search == Search::none) return {};
     if (search == Search::vector) return {false, false, numbers};
@@ -62,13 +62,13 @@ struct PictureFault {
   }
 };
 
-/// Where the search for a factor starts.
+/// The values from which the search for a factor starts.
 inline constexpr double kFactorsNearOne[] = {0.5, 0.9, 0.99, 1.01, 1.1, 2};
 
-/// Whether the target's texels are codes.
+/// Whether the target holds unorm codes.
 inline bool holds_codes(const LightPass& p) { return info(p.pipeline.target).number_class == NumberClass::unorm; }
 
-/// Faults of what becomes of the picture once it is lit (picture_faults.cpp).
+/// Faults of what is done to the picture after it is lit (picture_faults.cpp).
 std::span<const PictureFault> picture_value_faults();
 /// Faults of how the picture is lit (light_faults.cpp).
 std::span<const PictureFault> light_faults();

@@ -1,5 +1,5 @@
 #pragma once
-// Tiles of a picture: those that stand out, and the lists of lights that tiles have.
+// Tiles of a picture that look stale, and the lists of lights that a tiled renderer makes.
 #include <array>
 #include <cstdint>
 #include <map>
@@ -11,16 +11,16 @@
 
 namespace trueshade::oracle {
 
-/// Tiles of 8, 16, 32 and 64 pixels that are not as they should be, where nearly all others are.
+/// Tiles of 8, 16, 32 and 64 pixels that are wrong while nearly all others are right, as tiles of an earlier frame are.
 class StaleTiles {
  public:
-  /// Finds the tiles that stand out, of each side.
+  /// Finds these tiles, for each of the four sides.
   explicit StaleTiles(const StageVerdict& stage);
 
-  /// Whether the pixel is in a tile of that side, which is 8, 16, 32 or 64, that stands out.
+  /// Whether the pixel is in such a tile of that side (8, 16, 32 or 64).
   bool hold_anything(int side, int x, int y) const;
-  /// What it costs to suppose that the tiles of that side which stand out are stale: more for many tiles, and for tiles
-  /// that are mostly as they should be. Nothing stands out where pixels everywhere are not as they should be.
+  /// What it costs to suppose that these tiles of that side are stale: more for many tiles, and for tiles with many
+  /// right pixels. There are none where wrong pixels are spread over the picture.
   double cost(int side) const;
 
  private:
@@ -33,17 +33,17 @@ class StaleTiles {
   std::map<int, Tiles> by_side_;
 };
 
-/// Boxes about the surfaces of tiles, of which lists of lights are made.
+/// The bounding boxes of the surfaces in tiles, and the lists of lights that reach these boxes.
 class TileLists {
  public:
-  /// Makes the boxes of tiles of 8, 16, 32 and 64 pixels, from the surface of each pixel.
+  /// Makes the boxes of tiles of 8, 16, 32 and 64 pixels, from the captured surface of each pixel.
   TileLists(const CapturedSurface& surfaces, int width, int height);
 
   static constexpr int kOwn = 8;  ///< as `from`: the pixel's own tile
-  /// Whether each light of the pass is in the list of the tile beside the pixel's: lights whose range reaches its box.
-  /// Lights without a place or an end are in every list, others in none of a tile without a surface.
-  ///   from: which of its eight neighbours, or kOwn; at the picture's edge the tile nearest to it
-  ///   most: lights that a list holds, the first ones
+  /// Whether each light of the pass is in the light list of a tile: its range reaches the tile's box. Lights without a
+  /// place or an end are in every list; other lights are in no list of a tile without a surface.
+  ///   from: which of the eight neighbours of the pixel's tile, or kOwn; at the picture's edge the tile nearest to it
+  ///   most: how many lights a list holds, the first ones
   std::vector<uint8_t> list(const LightPass& pass, int side, int from, int most, int x, int y) const;
 
  private:

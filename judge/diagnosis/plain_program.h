@@ -1,6 +1,6 @@
 #pragma once
-// A light program in double: what a light pass that is right makes of a surface, for the diagnosis, which changes the
-// lights and the surface and asks again.
+// A light program in double: what a right light pass makes of a surface. The diagnosis changes lights and surfaces and
+// asks again.
 #include <array>
 #include <iterator>
 #include <vector>
@@ -12,29 +12,29 @@
 
 namespace trueshade::oracle {
 
-/// A light program of one frame. Where an operation is not defined, a value is NaN or infinite as double arithmetic has
-/// it.
+/// A light program prepared for one frame. Where an operation is not defined, the result is NaN or infinite, as in
+/// double arithmetic.
 class PlainProgram {
  public:
-  /// The pipeline's program.
+  /// Prepares the pipeline's light program.
   PlainProgram(const Scene& scene, const Pipeline& pipeline);
-  /// Another program for the same frame.
+  /// Takes another program for the same frame.
   PlainProgram(const Scene& scene, const Pipeline& pipeline, programs::Program program);
 
-  /// Whether the program has a finish(); without one finish() is not called.
+  /// Whether the program has a finish(); if not, finish() must not be called.
   bool defines_finish() const { return program_.defines_finish; }
 
-  /// The values of one surface, for the functions below. Not while others use them.
+  /// The values of the program's nodes for one surface. The functions below read and write them: one thread at a time.
   using Values = std::vector<double>;
-  /// Sets `values` to those of a surface, from the eye of `camera`.
+  /// Computes `values` for a surface that is seen from the eye of `camera`.
   void look_at(const PlainSurface& surface, const Camera& camera, Values& values) const;
-  /// The same; the surface's errors are not read.
+  /// Computes `values` for a surface whose errors are ignored, seen from the eye of `camera`.
   void look_at(const ShadedSurface& surface, const Camera& camera, Values& values) const;
-  /// What start() returns.
+  /// What start() returns: R, G, B that the sum of the lights starts from.
   Triple3 start(const Values& values) const { return three(programs::kStartOutput, values); }
-  /// What light() returns of a light, whatever its extent. Writes the light's values into `values`.
+  /// What light() returns for a light: its term, whatever its extent. Changes the light's part of `values`.
   Triple3 term(const Light& light, uint32_t index, Values& values) const;
-  /// What finish() returns of a sum. Writes the sum's values into `values`.
+  /// What finish() returns for a sum: RGBA. Changes the sum's part of `values`.
   std::array<double, 4> finish(const Triple3& sum, Values& values) const;
 
  private:
@@ -46,8 +46,8 @@ class PlainProgram {
   programs::Program program_;
   Values first_;  ///< constants, and what holds for the frame
   std::vector<programs::NodeId> of_frame_, of_surface_, of_light_, of_sum_;
-  /// The nodes of of_light_ that lights of each type need: choices that go by the type leave the rest out. All of a
-  /// type that the scene does not have.
+  /// For each type of light, the nodes of of_light_ that such a light needs: choices by the type leave the rest out.
+  /// All nodes for a type that the scene does not have.
   std::array<std::vector<programs::NodeId>, std::size(kLightTypes)> of_type_;
   std::vector<std::pair<programs::NodeId, SurfaceField>> surface_inputs_;
   std::vector<std::pair<programs::NodeId, LightField>> light_inputs_;

@@ -10,51 +10,52 @@
 
 namespace trueshade::oracle {
 
-/// Faults that a G-buffer is supposed to have, all at once. Those that draw otherwise come first.
+/// Faults that a G-buffer is supposed to have, all at once; those that change what is drawn act first.
 struct PlaneSupposition {
   std::vector<NamedPlaneFault> faults;
   std::shared_ptr<const Scene> scene;  ///< that is drawn; null: the right one
   std::shared_ptr<const ExpectedPlanes> drawn;
 };
 
-/// A captured G-buffer beside what is expected of it. Borrows all.
+/// A captured G-buffer beside what is expected of it. Borrows the scene and the capture.
 class PlaneCase {
  public:
-  /// Chooses the samples, and finds the possible surfaces of all pixels.
+  /// Chooses the samples of pixels, and finds the surfaces that all pixels may show.
   PlaneCase(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
             const StageVerdict& stage);
 
-  /// A G-buffer without a fault.
+  /// The supposition that nothing is wrong.
   PlaneSupposition right() const { return {{}, nullptr, right_}; }
-  /// `base` with one more fault; nothing where a fault that draws otherwise changes nothing here. Copies the scene and
-  /// finds the possible surfaces again for such a fault.
+  /// The supposition `base` with one more fault; nothing where a fault that changes what is drawn would change nothing
+  /// here. For such a fault it copies the scene and finds all surfaces again, which takes long.
   std::optional<PlaneSupposition> with(const PlaneSupposition& base, const NamedPlaneFault& fault) const;
-  /// The sample that findings are judged by.
+  /// The sampled pixels that findings are judged by, some 1000 at most.
   const std::vector<SampledPixel>& sample() const { return sample_; }
-  /// A smaller sample, for a first look.
+  /// A smaller sample of pixels, for a first, cheap look at each fault.
   const std::vector<SampledPixel>& few() const { return few_; }
 
-  /// Steps that each plane is off at a pixel, beyond what is legal; 0 of planes that were not captured. 1000 and more
-  /// where one of the captured and the expected number is NaN or infinite and they differ.
+  /// For each plane, by how many steps a pixel is off, beyond what is legal; 0 for planes that were not captured. At
+  /// least 1000 where one of the captured and the expected number is NaN or infinite and they differ.
   std::array<double, kPlanes> steps_off(const PlaneSupposition& supposed, int x, int y) const;
-  /// A captured plane; false where it was not captured or is not compared.
+  /// A captured plane; an empty view where the plane was not captured or is not compared.
   const PlaneView& view(Plane plane) const { return views_[size_t(plane)]; }
-  /// How many planes are compared.
+  /// How many planes were captured and are compared.
   int planes() const;
-  /// The code or float that the plane should hold at the pixel under the supposed faults; codes are rounded.
+  /// What a plane's channel should hold at the pixel under the supposed faults: a code, rounded, or a float.
   double predicted(const PlaneSupposition& supposed, Plane plane, int x, int y, int channel) const;
-  /// What a right renderer's planes hold at a pixel.
+  /// What a right renderer's planes hold at the pixel.
   ExpectedPixel expected(int x, int y) const { return right_->at(x, y); }
-  /// The scene that was borrowed.
+  /// The scene, which is borrowed.
   const Scene& scene() const { return scene_; }
-  /// What a right renderer's planes hold.
+  /// What a right renderer's planes hold at all pixels.
   std::shared_ptr<const ExpectedPlanes> expected() const { return right_; }
-  /// What is captured at the sample's pixels, beside what is expected; no pixel is marked as wrong. Borrows this
-  /// object.
+  /// What is captured and expected at the sampled pixels, for estimates of parameters. No pixel is marked as wrong. The
+  /// result borrows this object.
   PlaneEvidence evidence() const;
 
  private:
-  /// `after`: the fault comes after the plane's format has rounded its numbers.
+  /// The numbers that a plane should show at a pixel under the supposed faults, which may move the pixel there.
+  /// `after`: the faults act on numbers that the albedo's format has rounded.
   ExpectedPixel changed(const PlaneSupposition& supposed, Plane plane, int x, int y, bool after) const;
   void encode(const PlaneFault& fault, double parameter, ExpectedPixel& p) const;
   PlaneValues given(int x, int y) const;

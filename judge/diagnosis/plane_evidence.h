@@ -1,5 +1,5 @@
 #pragma once
-// What a capture shows at the pixels that are looked at, for estimates of what was drawn there.
+// What a capture shows at the sampled pixels, from which the parameters of faults are estimated.
 #include <functional>
 #include <vector>
 
@@ -8,7 +8,7 @@
 
 namespace trueshade::oracle {
 
-/// A pixel of the sample as captured, and as expected.
+/// A sampled pixel: the numbers that the planes hold there, and those that they should hold.
 struct EvidentPixel {
   SampledPixel at;
   bool wrong = false;  ///< any plane is not as expected
@@ -17,7 +17,7 @@ struct EvidentPixel {
   uint32_t triangle = 0;  ///< the expected one, in the object's mesh
 };
 
-/// What is captured, at sampled pixels and at any other.
+/// What is captured, at the sampled pixels and, by functions, at any other.
 struct PlaneEvidence {
   const Scene& scene;
   const Pipeline& pipeline;
@@ -30,13 +30,13 @@ struct PlaneEvidence {
   bool has_plane(Plane plane) const { return has[size_t(plane)]; }
 };
 
-/// The objects, at most two, that three tenths of the wrong pixels or more should show or do show; the likeliest first.
+/// The objects, two at most, that at least three tenths of the wrong pixels show or should show; the likeliest first.
 /// Empty where there is none.
 std::vector<uint32_t> suspected_objects(const PlaneEvidence& evidence);
 
-/// Parameters of a fault of Search::suspected: those that fault.suspects() names, fitted to the pixels as fault.fit
-/// says. Empty where nothing is suspected, and for a camera's fault where most pixels are right. A fit draws meshes at
-/// the pixels some hundreds of times.
+/// The parameters of a fault of Search::suspected: those that fault.suspects() finds, then fitted to the pixels as
+/// fault.fit says. Empty where nothing is suspected, and for a fault of the camera where most pixels are right. A fit
+/// draws meshes at the sampled pixels some hundreds of times.
 std::vector<FaultParameter> suspected_parameters(const PlaneEvidence& evidence, const PlaneFault& fault);
 
 }  // namespace trueshade::oracle

@@ -11,13 +11,13 @@
 
 namespace trueshade::oracle {
 
-/// The planes that are compared, as captures name them; `all` stands for every one.
+/// The planes that are compared, in the order of kPlaneNames; `all` stands for every one.
 enum class Plane : uint8_t { depth, position, normal, albedo, uv, object, material, specular, emission, all };
 inline constexpr size_t kPlanes = 9;
 inline constexpr std::string_view kPlaneNames[] = {"depth",     "position",    "normal",   "albedo",   "uv",
                                                    "id.object", "id.material", "specular", "emission", "G-buffer"};
 
-/// What an encoding reads beside the pixel's numbers.
+/// What the encoding of a plane depends on beside the pixel's numbers.
 struct PlaneContext {
   const Scene& scene;
   const Pipeline& pipeline;
@@ -25,10 +25,10 @@ struct PlaneContext {
   std::array<double, 3> eye{};                  ///< where all rays meet; of an orthographic matrix the camera's
 };
 
-/// What encodings read of a scene. Borrows both.
+/// The context of encodings for a scene. Borrows both arguments.
 PlaneContext plane_context(const Scene& scene, const Pipeline& pipeline);
 
-/// Where a plane's pixel came from.
+/// How a plane is flipped and shifted.
 struct PlaneMove {
   bool flip_x = false, flip_y = false;
   int x = 0, y = 0;
@@ -36,14 +36,14 @@ struct PlaneMove {
 
 struct PlaneEvidence;
 
-/// What the numbers of a fault are fitted to.
+/// Which pixels the numbers of a suspected fault are fitted to.
 enum class Fit : uint8_t {
   none,    ///< they are as they are suspected
   object,  ///< the pixels of one object
   camera   ///< all pixels
 };
 
-/// A row of the tables of plane faults.
+/// A row of the tables of G-buffer faults: what a renderer does wrong, and how it changes the expected planes.
 struct PlaneFault {
   enum class Search : uint8_t {
     none,          ///< it has no number
@@ -75,25 +75,25 @@ struct PlaneFault {
   bool (*sample)(const Scene&, Sampling&, double) = nullptr;  ///< as redraw, by how textures are read
   double change_of = 0;  ///< a small change of a number; below 0: times the scene's extent
 
-  /// Which numbers the fault has.
+  /// Which numbers the fault's parameter has.
   ParameterForm form() const {
     if (search == Search::suspected) return numbers;
     return {search != Search::none, false, 0};
   }
-  /// Whether its numbers are estimates, and only as good as the pixels.
+  /// Whether the fault's numbers are estimated from the pixels, and only as exact as these.
   bool is_estimate() const { return fit != Fit::none || search == Search::smooth || estimated; }
-  /// Whether the fault draws otherwise, so that the expected planes are made again.
+  /// Whether the fault changes what is drawn, so that all expected planes must be made again.
   bool redraws() const { return redraw != nullptr || edit != nullptr || sample != nullptr; }
 };
 
-// The searches that tables name most.
+// Shorter names of the searches that the tables use most.
 inline constexpr auto kOneOf = PlaneFault::Search::one_of, kSmooth = PlaneFault::Search::smooth;
 
-/// Encodings and moves of planes (plane_faults.cpp).
+/// Faults of how planes are encoded, flipped and shifted (plane_faults.cpp).
 std::span<const PlaneFault> plane_faults();
-/// Encodings of what materials reflect and emit (gloss_faults.cpp).
+/// Faults of how the planes specular and emission are encoded (gloss_faults.cpp).
 std::span<const PlaneFault> gloss_faults();
-/// States and scenes that are drawn otherwise (redraw_faults.cpp).
+/// Faults of the drawing state and of the scene, which change what is drawn (redraw_faults.cpp).
 std::span<const PlaneFault> redraw_faults();
 /// Faults of one object: its matrix and its triangles (object_faults.cpp).
 std::span<const PlaneFault> object_faults();

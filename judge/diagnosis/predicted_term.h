@@ -5,22 +5,23 @@
 
 namespace trueshade::oracle {
 
-/// The terms of a light pass at one surface. Borrows the pass.
+/// What lights add to one surface under a light pass. Borrows the pass.
 class PredictedTerms {
  public:
-  /// Runs the part of a light program that depends on the surface alone.
+  /// Computes what depends on the surface alone.
   PredictedTerms(const LightPass& pass, const PlainSurface& surface);
 
-  /// What the sum of a light program starts from. Only of a pass that has a light program.
+  /// What the sum of the lights starts from, R, G, B, by the pass's light program, which must be there.
   Triple3 start() const;
-  /// What a light program's finish() makes of a sum; the sum and `alpha` as they are where there is no finish().
+  /// What finish() of the light program returns for a sum; the sum and `alpha` unchanged where there is no finish().
   std::array<double, 4> finished(const Triple3& sum, double alpha) const;
 
-  /// What one fragment of a light adds to the sum. `surface` is that of the constructor.
+  /// What one fragment of a light adds to the sum, R, G, B. `surface` must be the constructor's.
   Triple3 term(const PlainSurface& surface, const Light& light) const;
-  /// Whether a light's range, as the fault has it, reaches the surface; true of a light without a place.
+  /// Whether the surface is within the light's range, which the fault may have changed; true for a light without a
+  /// place.
   bool in_range(const PlainSurface& surface, const Light& light) const;
-  /// How often the light is drawn at the surface's pixel.
+  /// How many fragments of the light are drawn at the surface's pixel.
   int fragments(const PlainSurface& surface, const Light& light) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// A light program as people get it wrong: one step of its source is another.
+// Mistakes in a light program: one step of the source is replaced by another.
 #include <string>
 #include <vector>
 
@@ -27,30 +27,31 @@ enum class ProgramChange : uint8_t {
   srgb_decoded,  ///< the light of the value as an sRGB one; with a `number` its power
 };
 
-/// How many products behind each other factor_of_one_term looks through: both operands of each are tried.
+/// How deep factor_of_one_term looks into a product of products for a factor that is a sum; it tries both operands of
+/// each.
 inline constexpr int kProductDepth = 6;
 
-/// One change of all nodes that a step of the source became: of the components of a vector, say.
+/// One mistake, made in all nodes that one step of the source became, such as the components of a vector.
 struct ProgramEdit {
   ProgramChange change = ProgramChange::other_operation;
   std::vector<programs::NodeId> nodes;   ///< ascending
   std::vector<programs::NodeId> others;  ///< other_operand, times_other, over_other: for each node
   size_t operand = 0;
   programs::Op op = programs::Op::f_add;
-  double number = 0;          ///< what it is
-  bool fitted = false;        ///< the number is to be found: it is what it is rightly
+  double number = 0;          ///< the number that `change` uses
+  bool fitted = false;        ///< the number is to be fitted; until then it is the right one
   bool gates = false;         ///< factor_of_one_term: the other term is 0 where the factor is
   bool is_parameter = false;  ///< of the block Parameters: `text` is its name
   uint32_t line = 0;
   std::string text;  ///< what the line does then, "subtracts where it should add"
 };
 
-/// What may be done to the steps that light() depends on and that have a line of the user's, to its parameters and to
-/// albedo. In this order: an operation left out or confused, parameters, constants, squares and roots, albedo's
-/// encoding, factors of one term, further factors, a number as a factor, other operands.
+/// The mistakes worth trying: changes of the steps that light() depends on and that have a line in the user's source,
+/// of the parameters, and of the albedo. In this order: an operation left out or confused, parameters, constants,
+/// squares and roots, albedo's encoding, factors of one term, further factors, a number as a factor, other operands.
 std::vector<ProgramEdit> program_edits(const programs::Program& program);
 
-/// The program with one change of program_edits() made.
+/// A copy of the program with one of the changes of program_edits() made.
 programs::Program edited(const programs::Program& program, const ProgramEdit& edit);
 
 }  // namespace trueshade::oracle

@@ -1,16 +1,17 @@
 #pragma once
-// Positions that are rebuilt from depths with other planes than those that the depths were made with.
+// Positions that are rebuilt from depths with other near and far planes than those that made the depths.
 #include "judge/diagnosis/triple.h"
 
 namespace trueshade::oracle {
 
-/// Distances of the near and the far plane along the view's axis.
+/// The distances of the near and the far plane from the eye along the view's axis, scene units.
 struct DepthPlanes {
   double near = 0, far = 0;
 };
 
-/// Where a position ends up whose depth is made with one pair of planes and read with another. Positions that are not
-/// before the eye stay, NaN among them. `back`: the view's axis, towards the viewer.
+/// Where a position ends up if its depth is made with the planes `made` and turned back into a position with the planes
+/// `read`. A position that is not in front of the eye, or is NaN, stays. `back`: the view's axis, unit length, towards
+/// the viewer.
 inline Triple3 reread(const Triple3& eye, const Triple3& back, const Triple3& position, const DepthPlanes& made,
                       const DepthPlanes& read) {
   const Triple3 offset = minus(position, eye);

@@ -1,5 +1,5 @@
 #pragma once
-// What meshes show at a few pixels, in doubles and without textures: for estimates, which are judged afterwards.
+// Draws meshes at a few pixels, in doubles and without textures. For estimates, which are judged afterwards.
 #include <span>
 #include <vector>
 
@@ -8,18 +8,19 @@
 
 namespace trueshade::oracle {
 
-/// What is drawn at some pixels so far.
+/// What is seen at a few pixels of a picture, as far as it is drawn.
 class Sketch {
  public:
-  /// Nothing is drawn yet: call clear() first.
+  /// Keeps the places of the pixels. Call clear() before draw().
   Sketch(std::span<const SampledPixel> pixels, const Pipeline& pipeline);
 
-  /// Clears all pixels to the clear depth and no surface.
+  /// Sets all pixels to the clear depth and no surface.
   void clear(const Pipeline& pipeline);
-  /// Draws one instance of `mesh` over what is drawn already, by the pipeline's depth test and culling. Sets object,
-  /// depth, position and normal of the pixels where it is seen. Call it in the order of submission.
+  /// Draws `mesh` with the instance's transform and material over what is drawn already, by the pipeline's depth test
+  /// and culling. Sets object, depth, position and normal of the pixels where it is seen. Call it in the order of
+  /// submission.
   void draw(const Scene& scene, const Pipeline& pipeline, const Mesh& mesh, uint32_t instance);
-  /// What each pixel shows, in the order of the constructor's.
+  /// What each pixel shows, in the order of the constructor's pixels.
   std::span<const PlaneValues> pixels() const { return values_; }
 
  private:

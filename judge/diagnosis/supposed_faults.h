@@ -10,17 +10,16 @@
 
 namespace trueshade::oracle {
 
-/// The faults that a user supposes, by the table that they are in.
+/// The faults that a user supposes, by the kind of fault.
 struct SupposedFaults {
   std::vector<NamedFault> picture;
   std::vector<NamedPlaneFault> planes;
   std::vector<NamedGlassFault> glass;
 };
 
-/// Reads faults as `--suppose` has them, each a name and, behind `=`, a parameter. What is returned has only parameters
-/// that its faults are made for: those of their table, numbers of lights and objects that the scene has, or numbers of
-/// the fault's range. Error(usage), in one line, for a name that no fault has and for a parameter that the fault does
-/// not take.
+/// Reads faults as `--suppose` names them: a name and, behind `=`, a parameter. Each parameter of the result is one
+/// that its fault takes: of the fault's table, an index of a light or object of the scene, or a number in the fault's
+/// range. Error(usage), in one line, for a name that no fault has and for a parameter that the fault does not take.
 SupposedFaults supposed_faults(std::span<const std::string> names, const Scene& scene);
 
 }  // namespace trueshade::oracle

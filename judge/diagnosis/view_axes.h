@@ -8,8 +8,8 @@
 
 namespace trueshade::oracle {
 
-/// The directions right, up, and towards the viewer, of unit length, from the rows of `clip_from_world`
-/// (docs/captures.md, "Axes of a view space"). A matrix that mirrors gives axes that are left-handed.
+/// The directions of the camera's right, up, and towards the viewer, in world space, of unit length. They come from the
+/// rows of `clip_from_world` (docs/captures.md, "Axes of a view space"). Left-handed where the matrix mirrors.
 std::array<Triple3, 3> view_axes(const Camera& camera, const Pipeline& pipeline);
 
 }  // namespace trueshade::oracle

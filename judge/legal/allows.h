@@ -3,8 +3,8 @@
 
 namespace trueshade::oracle {
 
-/// Whether every value that `tight` allows is one that `loose` allows, as far as their knobs tell; false where they do
-/// not tell. What is nominal, the likely rule of stores, does not count.
+/// Whether `loose` allows every value that `tight` allows; false also where their fields cannot be compared. The field
+/// `likely`, which makes one of the allowed values the nominal one, is not compared.
 bool allows_all_of(const Profile& loose, const Profile& tight);
 
 }  // namespace trueshade::oracle

@@ -4,22 +4,23 @@
 
 namespace trueshade::oracle {
 
-/// The directions along which u and v grow, in the world, of any length: on a triangle, whose uv without area leaves
-/// both zero; or, where `side` is not 0, of vertices' tangents.
+/// The directions along which a surface's u and v grow, in world space, of any length. They are those of the triangle,
+/// both 0 where its uv has no area; or, where `side` is not 0, u is that of the vertices' tangents, and v is not used.
 struct TangentFrame {
   Bounded3 u, v;
   int side = 0;              ///< B is along N x u where it is above 0, against it where it is below
   bool either_side = false;  ///< or the other way: the matrix may mirror or not, as far as float arithmetic tells
 };
 
-/// The side of B of a triangle's corners together: by their tangents' w and by whether the instance's matrix
-/// mirrors, whose determinant a shader may be unable to tell from 0. `u` is left to the pixel.
+/// The frame of a triangle whose vertices have tangents. Sets `side`, by the tangents' w and by whether the instance's
+/// matrix mirrors, and `either_side`, where a shader may be unable to tell the matrix's determinant from 0. Leaves `u`
+/// to the caller, who interpolates it at the pixel.
 TangentFrame vertex_frame(const Projector& projector, uint32_t instance, uint32_t triangle);
 
-/// The frame of a triangle that a normal map is read in: of vertices in the world, as docs/arithmetic.md has it, in
-/// double; unless the profile has exact vertices, or of vertices in the object, turned into the world by the shader:
-/// three products of a row with one rounding each, two sums, and the rounding of the matrix element and of the
-/// direction, 5 v sum |m| |u|.
+/// The frame that a normal map is read in, of a triangle whose vertices have no tangents. It is made from positions in
+/// the world, in double (docs/arithmetic.md). Unless the profile has exact vertices, a shader may also make it from
+/// positions in the object and turn it into the world, and the bounds hold that too: three products of a row with one
+/// rounding each, two sums, and the rounding of the matrix element and of the direction, 5 v sum |m| |u|.
 ///   uv_set: the set that the normal map reads
 TangentFrame tangent_frame(const Projector& projector, uint32_t instance, uint32_t triangle,
                            const TriangleValues& values, size_t uv_set);

@@ -11,44 +11,47 @@
 
 namespace trueshade::oracle {
 
-/// One fragment of a light's draw at a pixel, as often as it may be there.
+/// What one fragment of a light's draw may output at a pixel, and how often it may be drawn there.
 struct DrawnFragment {
   LightOutput output;
   int least = 1, most = 1, nominal = 1;
-  PixelClass doubt = PixelClass::edge;           ///< of another number of them than the nominal one
-  std::optional<std::array<Range, 4>> likely{};  ///< what the likely rule draws, where that is another: of clears
+  PixelClass doubt = PixelClass::edge;           ///< the pixel's class if it is drawn another number of times than
+                                                 ///< `nominal`
+  std::optional<std::array<Range, 4>> likely{};  ///< what the likely rule outputs, where that differs: of clears
 
-  /// What the likely rule draws.
+  /// The source colour by the likely rule: `likely`, or else the nominal output.
   const std::array<Range, 4>& likely_source() const { return likely ? *likely : output.nominal; }
 };
 
-/// How often each fragment was there, and which way a comparison went.
+/// One way in which a pixel's fragments may have been drawn: what the pixel then holds, and the class that it then has.
 struct Way {
   PixelClass pixel_class = PixelClass::exact;
   Texel texel;
-  double value[4] = {};  ///< of the last fragment
+  double value[4] = {};  ///< source colour of the last fragment drawn
 };
 
 inline constexpr size_t kMostWays = 64;  // of drawing a pixel that are tried apart
 
-/// Every way from a known texel on, the nominal one first. Of more than kMostWays: the nominal one and the hull of all.
+/// What a pixel that holds `from` may hold after the fragments: one Way for each number of times that each fragment may
+/// be drawn and for each result of its open comparison. The nominal way comes first. Where there are more than
+/// kMostWays: the nominal one, and one that holds all others.
 ///   fragments: in the order in which they are blended
 std::vector<Way> ways_from(const Texel& from, std::span<const DrawnFragment> fragments, const BlendState& blend,
                            Format format, const Profile& profile);
 
-/// Targets of whole codes that draws of one light each only add to, with no other step: what a pixel may become is told
-/// by its codes alone. Deletable: ways_from() judges whatever is not as_predicted(), and finds what is as_predicted()
-/// EXACT, with no rounding that could have gone another way.
+/// A fast test for unorm targets to which each light's colour is added (ONE, ONE). Deletable: ways_from() judges each
+/// pixel that as_predicted() does not accept, and would find EXACT each that it accepts.
 class AddedCodes {
  public:
-  /// Finds out whether the target suits.
+  /// Finds out whether the format and the blend state allow the test.
   AddedCodes(Format format, const BlendState& blend);
 
-  /// Whether the target and the blending are such; otherwise as_predicted() is not asked.
+  /// Whether they do. If not, as_predicted() must not be called.
   bool suit() const { return suit_; }
 
-  /// Whether `after` is `before` and the nominal codes of one fragment, alpha left alone, where no other code than the
-  /// nominal one is predicted.
+  /// Whether the texel `after` is the texel `before` with the nominal codes of one fragment's `color` added, clamped,
+  /// and with its alpha unchanged. False also where the colour lies so near the middle of two codes that either may be
+  /// added.
   bool as_predicted(const Bounded3& color, const uint8_t* before, const uint8_t* after) const;
 
  private:

@@ -12,18 +12,18 @@ class JudgedRows {
   static constexpr int kBand = 16;  ///< rows; bands count from the top as well
 
   JudgedRows() = default;  ///< all rows
-  /// A band is judged where its entry is not 0.
+  /// Judges the bands whose entry is not 0.
   explicit JudgedRows(std::vector<uint8_t> bands) : some_(true), bands_(std::move(bands)) {}
 
-  /// How many bands an image of so many rows has.
+  /// How many bands an image of this height in rows has.
   static int bands_of(int height) { return (height + kBand - 1) / kBand; }
   /// Whether all rows are judged.
   bool all() const { return !some_; }
-  /// Whether each band is judged, as the constructor was told; empty where all rows are.
+  /// For each band, from the top, whether it is judged (not 0); empty where all rows are.
   const std::vector<uint8_t>& bands() const { return bands_; }
-  /// Whether a band is judged.
+  /// Whether a band, counted from the top, is judged.
   bool has_band(int band) const { return !some_ || bands_[size_t(band)] != 0; }
-  /// Whether a row is judged.
+  /// Whether a row, counted from the top, is judged.
   bool has(int y) const { return has_band(y / kBand); }
 
  private:

@@ -11,28 +11,29 @@ namespace trueshade::oracle {
 
 using TexelHull = std::array<Range, 4>;  ///< of R, G, B, A; `value` is not set
 
-/// A hull that holds nothing, for include().
+/// An empty hull, to which include() adds.
 TexelHull no_texel();
-/// Widens a hull so that it holds the other too.
+/// Widens `hull` to hold `other` too.
 void include(TexelHull& hull, const TexelHull& other);
 
-/// A linear number encoded as sRGB, not clamped; NaN stays NaN.
+/// A linear value encoded as sRGB, 0 to 1 as 0 to 1. Not clamped; NaN stays NaN.
 template <class Real>
 Real srgb_encoded(Real x) {
   return x <= Real(0.0031308L) ? Real(12.92L) * x : Real(1.055L) * std::pow(x, Real(1 / 2.4L)) - Real(0.055L);
 }
-/// An sRGB number decoded, clamped to [0, 1].
+/// The linear value of an sRGB one, which is clamped to [0, 1].
 template <class Real>
 Real srgb_decoded(Real s) {
   if (s <= Real(0.04045L)) return std::max(Real(0), s) / Real(12.92L);
   return std::pow((std::min(s, Real(1)) + Real(0.055L)) / Real(1.055L), Real(2.4L));
 }
 
-/// srgb_decoded() as Mesa 22.3 computes it (gallium/auxiliary/gallivm/lp_bld_format_srgb.c): a line, and a polynomial
-/// from code 16 on.
+/// srgb_decoded() as Mesa 22.3 computes it (gallium/auxiliary/gallivm/lp_bld_format_srgb.c): a line below code 16, a
+/// polynomial from there.
 long double mesa_decoded(long double s);
 
-/// The levels of a texture, read as a sampler may: sRGB texels as decoded, some codes off, or not decoded yet.
+/// A texture's levels as a sampler may read them: sRGB texels not decoded yet where `encoded`, else decoded with an
+/// error of up to `codes` codes of 255. Borrows all.
 struct TexelSource {
   const Texture& texture;
   const Sampler& sampler;
@@ -41,16 +42,16 @@ struct TexelSource {
   bool encoded = false;
   double codes = 0;
 
-  /// What a hull of a level read so is of.
+  /// The key of the hull of a level that is read in this way.
   LevelReading reading(size_t level) const;
-  /// The texel by its indices before wrapping.
+  /// The texel at column i and row j, which the sampler wraps into the level.
   TexelValue at(size_t level, long long i, long long j) const;
-  /// The texel by its indices as wrapped_index() has them.
+  /// The texel at indices that wrapped_index() has wrapped.
   TexelValue at_wrapped(size_t level, long long x, long long y) const;
 };
 
-/// The hull of what the filter may give where the coordinates lie in u and v, the weights as far off as the rules let
-/// them be. Boxes of many texels are taken for the whole level.
+/// The least and largest RGBA that the filter may return for texture coordinates in u and v, with weights as far off as
+/// texels.rules allow. A box of many texels gives the hull of the whole level.
 ///   exact: coordinates and weights are exact
 TexelHull level_range(const TexelSource& texels, size_t level, Filter filter, const Range& u, const Range& v,
                       bool exact);

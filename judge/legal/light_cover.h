@@ -10,17 +10,17 @@
 
 namespace trueshade::oracle {
 
-/// How many fragments of a light's mesh a pixel may have.
+/// How many fragments of a light's mesh a pixel may have: the least, the most, and the nominal number.
 struct FragmentCount {
   uint8_t least = 0, most = 0;
   uint8_t nominal = 0;     ///< the number if vertices are in the middle of their boxes
   bool cut = false;        ///< the doubt comes from near, far, w or the sides of the view
   float chance_other = 0;  ///< predicted probability that the number is not the nominal one
-  uint32_t triangle = 0;   ///< of the mesh: one in doubt
+  uint32_t triangle = 0;   ///< index of one of the mesh's triangles that are in doubt
 };
 
-/// The mesh of one light in the window. Each count from least to most is legal, but that edges walked once each way
-/// between triangles of one facing hold together (GL 4.6 core, 14.6.1: exactly one has the sample).
+/// Counts the fragments of one light's mesh at each pixel. Every count from least to most is legal, but for triangles
+/// of one facing that share an edge: exactly one of them has a sample on that edge (GL 4.6 core, 14.6.1).
 ///
 /// A triangle that reaches behind the eye has no window vertices there, and close to the eye's plane none worth the
 /// name. Under depth clamp nothing but w > 0 cuts it, at a place of the driver's choosing: the sides of the view, or a
@@ -32,13 +32,12 @@ struct FragmentCount {
 /// error d of clip coordinates by |p x a| . d.
 class LightOutline {
  public:
-  /// Puts the mesh of a light into the window. Copies what it needs of the scene.
+  /// Transforms the light's mesh to window space. Copies what it needs of the scene.
   LightOutline(const Scene& scene, const Pipeline& pipeline, const Profile& profile, std::array<int, 2> drawn_at,
                const Light& light, const LightMesh& mesh);
   ~LightOutline();
 
-  /// Sets `out`, one element for each pixel of row y (y up), to how many fragments the mesh has there; 0 outside the
-  /// viewport.
+  /// Sets out[x] to the number of fragments that the mesh has at pixel x of row y (y up); to 0 outside the viewport.
   void count_row(int y, std::span<FragmentCount> out) const;
 
  private:

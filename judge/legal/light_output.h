@@ -8,65 +8,67 @@
 
 namespace trueshade::oracle {
 
-/// What one draw's fragment shader may output.
+/// The colours that the fragment shader may output in one draw.
 struct LightOutput {
   std::array<Range, 4> nominal, other;  ///< RGBA before any clamp of the target; `other` where either_way
   bool either_way = false;              ///< a comparison of the shader may go to `other`
   bool undefined = false;               ///< OpenGL gives the value no meaning
 };
 
-/// What the program's finish() may make of a sum, whichever way its comparisons go: nominally, and as one set.
+/// What finish() may make of the sum `lit`: `nominal` with the sum's nominal branches, `other` as one set that holds
+/// the results of all branches.
 LightOutput output_of(const ProgramBounds& program, const ShadedSurface& surface, LitRange lit,
                       ProgramBounds::Registers& registers);
 
-/// Whether no value or end of a colour's ranges is NaN: GLSL promises nothing of what is no number. Infinite ends are
-/// numbers.
+/// Whether no value and no end of the four ranges is NaN, of which GLSL promises nothing. Infinite ends are allowed.
 bool are_numbers(const std::array<Range, 4>& color);
 
-/// The outputs of strategies that draw light by light: each draw's output is what finish() makes of that
-/// draw's own sum. A light is named by its place in Scene::lights. The scene is borrowed.
+/// What the fragment shader outputs under strategies that draw light by light: finish() of each draw's own sum. A light
+/// is named by its place in Scene::lights. The scene is borrowed.
 class LightOutputs {
  public:
-  /// Makes the light program, or the light model as one. Throws as ProgramBounds does.
+  /// Prepares the pipeline's light program or, where it has none, its light model as a program. Throws as ProgramBounds
+  /// does.
   LightOutputs(const Scene& scene, const Pipeline& pipeline, const Profile& profile);
 
-  /// The output of a light's own draw.
+  /// The output of the draw of one light.
   LightOutput term(const ShadedSurface& surface, uint32_t light) const;
-  /// The output of the first draw of forward-multipass: light 0, with what the sum starts from.
+  /// The output of the first draw of forward-multipass: light 0 added to what the sum starts from.
   LightOutput first(const ShadedSurface& surface) const;
-  /// The output of a draw without lights.
+  /// The output of a draw without lights: what the sum starts from.
   LightOutput start(const ShadedSurface& surface) const;
 
-  /// How many fragments of a quad that ends at the light's range the surface has: 1, 0, or either.
+  /// Whether the surface is nearer to a light than its range: surely, perhaps, and in real arithmetic. A quad that ends
+  /// at the range has one fragment there where it is, and none where it is not.
   struct InRange {
     bool surely = true, perhaps = true, nominally = true;
   };
-  /// Compares the surface's distance with the light's range.
+  /// Compares the surface's distance to the light with the light's range.
   InRange in_range(const ShadedSurface& surface, uint32_t light) const;
 
-  /// Whether a fragment of the light counts as lit: in range and facing. One that adds nothing (outside its cone) may
-  /// be left out.
+  /// Whether a light counts as lit: the surface is in its range and faces it. A light that adds nothing (outside of its
+  /// cone) may or may not be counted.
   struct Lit {
     bool surely = false, perhaps = false;
   };
-  /// Whether the fragment of one light counts.
+  /// Whether one light counts as lit.
   Lit lit(const ShadedSurface& surface, uint32_t light) const;
-  /// Whether the fragment of light j of terms() counts, which were made with Block::counts.
+  /// Whether light j of `terms` counts as lit; terms() made them with Block::counts.
   Lit lit(const LitApart& terms, size_t j) const;
 
-  /// Sets `lit` to the terms of many lights in one go, which are ascending.
+  /// Sets `lit` to what each of these lights, given in ascending order, adds by itself.
   void terms(const ShadedSurface& surface, std::span<const uint32_t> lights, ProgramBounds::Block& block,
              LitApart& lit) const;
-  /// The output of a light whose colour is `color` and cannot be another; alpha as in term().
+  /// The output of a light's draw whose colour before finish() is `color`, with no other outcome; alpha as in term().
   LightOutput of_color(const ShadedSurface& surface, const Bounded3& color) const;
 
-  /// The light program, or the light model as one.
+  /// The light program, or the program that stands for the light model.
   const ProgramBounds& program() const { return program_; }
-  /// Whether terms() are outputs, but for alpha: no finish() makes others of them.
+  /// Whether what terms() gives is already the RGB that a draw outputs, because the program has no finish().
   bool are_terms_outputs() const { return !program_.program().defines_finish; }
-  /// Whether lights leave the surface out, as it shows its albedo.
+  /// Whether the surface is unlit: it shows its albedo, and lights do not draw on it.
   bool is_unlit(const ShadedSurface& surface) const { return program_.is_unlit(surface); }
-  /// Whether a draw has no fragments beyond its light's extent, and not fragments that add nothing.
+  /// Whether a light's draw discards its fragments beyond the light's extent; if not, they are drawn and add nothing.
   bool discards_beyond_extent() const { return program_.is_users(); }
 
  private:

@@ -6,13 +6,14 @@
 
 namespace trueshade::oracle {
 
-/// The shape of a piece, made once for all samples.
+/// What the interpolation of every attribute of a piece needs: gradients, extents and error bounds, the same at all
+/// samples.
 struct PieceShape {
-  /// reach: Projector::window_reach().
+  /// reach: Projector::window_reach(), pixels.
   PieceShape(const Piece& piece, const Profile& profile, const Pair& reach);
 
-  /// What the arithmetic of a plane through the vertex values may be off by anywhere in the window (SurfacePoint says
-  /// how it is made up). Of attributes and of 1 / w, which follow PlaneForm.
+  /// A bound on the error of evaluating a plane through these three vertex values anywhere in the window; SurfacePoint
+  /// says how it is made up. For attributes and 1 / w, whose planes follow PlaneForm.
   double plane_error(const std::array<double, 3>& vertex) const { return plane_error(vertex, weighted_); }
 
   bool points = true;                ///< the vertices are points, not boxes
@@ -27,8 +28,8 @@ struct PieceShape {
   void find_setup(const Piece& piece);
   double plane_error(const std::array<double, 3>& vertex, bool weighted) const;
 
-  /// The triangle that planes are set up from: the piece, or the triangle submitted. There the plane through a piece's
-  /// values has the values `from_piece` times these.
+  /// The triangle from whose vertices planes are set up: the piece or, where PlaneForm says so, the triangle submitted.
+  /// The plane through a piece's values has the values `from_piece` times these at the submitted triangle's vertices.
   struct Setup {
     std::array<double, 3> dx{}, dy{};
     double span_x = 0, span_y = 0, area = 0, condition = 0;
@@ -39,7 +40,7 @@ struct PieceShape {
   double roundoff_, divide_;
 };
 
-/// An attribute at the vertices of a piece.
+/// An attribute's values at the three vertices of a piece, and how far each may be off.
 struct VertexAttribute {
   std::array<double, 3> value{}, error{};
   double plane_error = 0;  ///< of value / w where the plane is smooth, else of the value

@@ -5,7 +5,8 @@
 
 namespace trueshade::oracle {
 
-/// Why a pixel is what it is (docs/gl_rules.md section 7). The image passes where no pixel is a violation.
+/// How a pixel compares with what the profile allows, and why it may differ from the nominal value (docs/gl_rules.md
+/// section 7). The image passes where no pixel is a violation.
 enum class PixelClass : uint8_t {
   exact,    ///< the value that the profile's nominal vertices, order and rounding give (float planes: within the bound)
   store_2,  ///< the nominal surface, some channel stored as another legal neighbour
@@ -19,15 +20,15 @@ enum class PixelClass : uint8_t {
   left_out,   ///< not judged: no class of the others, and in none of the figures
 };
 inline constexpr size_t kPixelClasses = 9;  ///< but for left_out
-/// A class as reports name it: `DEPTH-TIE`.
+/// The name of a class in reports: `DEPTH-TIE`.
 std::string_view text(PixelClass c);
 
-/// Whether a pixel of that class shows another surface or branch than the nominal one.
+/// Whether pixels of that class show another surface, or another branch of the shader, than the nominal one.
 inline bool shows_another(PixelClass c) {
   return c == PixelClass::edge || c == PixelClass::depth_tie || c == PixelClass::clip || c == PixelClass::branch;
 }
 
-/// Whether a pixel of which one draw has class a and another class b keeps a.
+/// Whether class `a` outranks class `b`: a pixel that gets both, by two draws or planes, keeps `a`.
 bool worse(PixelClass a, PixelClass b);
 
 }  // namespace trueshade::oracle

@@ -10,37 +10,40 @@
 
 namespace trueshade::oracle {
 
-/// The surface that a piece may show at the sample (x, y), in pixels, y up, which it has or may have; nothing where the
-/// alpha test is sure to drop it.
+/// The surface that a piece may show at the sample (x, y), in pixels, y up: `base` with its doubts and its depth key
+/// added. The sample lies in the piece, surely or perhaps. Nothing where the alpha test surely drops the surface.
 ///   values: of the triangle; read where the material is masked, and may be null elsewhere
-///   cover: what coverage_at() says there, not Cover::no
+///   cover: what coverage_at() returned for the sample, not Cover::no
 ///   base: the surface's instance, triangle, piece and `cut`
-///   order: of the triangle among all that are submitted
+///   order: the triangle's place among all that are submitted, which is the key under ALWAYS
 std::optional<PossibleSurface> possible_sample(const Projector& projector, const Piece& piece, const PieceShape& shape,
                                                const TriangleValues* values, const Coverage& cover,
                                                PossibleSurface base, double order, double x, double y);
 
-/// Whether an opaque surface is kept that comes next at a pixel. Lowers `limit` to the surface's greatest key where the
-/// surface is certain.
-///   limit: in/out, the key that is sure to be in front; before the first surface clear_key()
-/// Makes a surface uncertain that the depth test may drop, or whose order depth does not tell.
+/// Whether the next opaque surface at a pixel may be seen: it is not surely hidden, and may pass the depth test against
+/// the clear depth.
+///   surface: becomes uncertain where the depth test may drop it, and under depth functions that do not order depths
+///   limit: in/out, the key behind which all is surely hidden; clear_key() before the first surface. Falls to the
+///          surface's greatest key where the surface is certain
 bool is_kept(const GeometryState& state, double clear, PossibleSurface& surface, double& limit);
 
-/// As is_kept(), but keeps a surface that may have the depth which is left, be it seen or not (find_tied()).
+/// As is_kept(), but keeps each surface, seen or not, whose depth may be the one that is left in the depth buffer; all
+/// surfaces where the depth function does not order depths. For find_tied().
 bool may_be_left(const GeometryState& state, double clear, PossibleSurface& surface, double& limit);
 
-/// Whether the depth test tells surfaces apart by which is nearer or farther: LESS, LEQUAL, GREATER, GEQUAL.
+/// Whether a depth test keeps the nearer or the farther fragment: LESS, LEQUAL, GREATER, GEQUAL.
 bool orders_depths(DepthFunc func);
 
-/// The possible surfaces of single pixels under the projector's profile, from those under a profile that allows all of
-/// it: the same as a search among all triangles finds. For one thread at a time.
+/// Finds the surfaces that single pixels may show under the projector's profile. It looks only among those that were
+/// found under a looser profile, which gives the same as a search of all triangles. For one thread at a time.
 class NarrowedSurfaces {
  public:
-  /// Borrows both.
+  /// Borrows the projector and the cache of triangles.
   NarrowedSurfaces(const Projector& projector, TriangleForms& forms)
       : projector_(projector), forms_(forms), clear_(clear_key(projector.pipeline().geometry)) {}
 
-  /// The possible surfaces of the pixel (x, y), y up, out of the `wider` ones. Valid until the next call.
+  /// The surfaces that pixel (x, y), y up, may show. Valid until the next call.
+  ///   wider: those that it may show under a profile that allows all that the projector's profile allows
   std::span<const PossibleSurface> at(std::span<const PossibleSurface> wider, int x, int y);
 
  private:

@@ -13,7 +13,7 @@
 
 namespace trueshade::oracle {
 
-/// The planes of one piece about one sample.
+/// Bounds the depth and the attributes that one piece may have at one sample (x, y).
 ///
 /// Moving vertices v_i by d_i is moving the sample: the plane through (v_i + d_i, z_i) has at p the value that the
 /// plane through (v_i, z_i) has at p - sum(b_i d_i), b_i the barycentrics of p in the moved triangle. So the values
@@ -37,38 +37,41 @@ namespace trueshade::oracle {
 /// added where the profile has those.
 class SurfacePoint {
  public:
-  /// Where planes are looked at: over the whole box that legal vertices allow, or at its middle alone, which costs less
-  /// and gives a part of each range.
+  /// Which places of the vertices are taken into account: all that are legal (box), or the middle of their boxes alone,
+  /// which costs less and gives a part of each range.
   enum class Within : uint8_t { box, middle };
 
   /// reach: the X and Y above, Projector::window_reach().
   SurfacePoint(const Piece& piece, const Profile& profile, const Pair& reach, double x, double y);
 
-  /// The same with the piece's shape at hand, as for many samples of it.
+  /// Takes the piece's shape, which many samples of the piece share. Borrows the piece and its shape.
   SurfacePoint(const Piece& piece, const PieceShape& shape, const Profile& profile, double x, double y,
                Within within = Within::box);
   SurfacePoint(const SurfacePoint&) = delete;
   SurfacePoint& operator=(const SurfacePoint&) = delete;
 
-  /// False where planes may be anything: through vertices not snapped, without area in float arithmetic (UNDEFINED).
+  /// False where depth and attributes may be anything, because their planes go through vertices that are not snapped
+  /// and have no area in float arithmetic (class UNDEFINED).
   bool bounded() const {
     return bounded_ || tiny_ == Tiny::hull || (tiny_ == Tiny::hull_and_plane && unsnapped_->bounded_);
   }
 
-  /// Window depth before any offset and clamp.
+  /// The window depth at the sample, before polygon offset and clamping.
   Range depth() const;
 
-  /// What glPolygonOffset adds (GL 4.6 core, 14.6.5): m factor + r units, with m between the larger slope and the norm
-  /// of both, of the plane through any vertices of the box, or of any three corners of what clipping leaves that may
-  /// have the sample; r of the profile, in float depth of the largest |z| of the vertices, `largest`, or of the
-  /// triangles that clipping may have cut the piece into.
+  /// What glPolygonOffset adds to the depth (GL 4.6 core, 14.6.5): m factor + r units. m lies between the larger slope
+  /// and the norm of both, of the plane through any vertices of the box, or of any three corners of what clipping
+  /// leaves that may have the sample. r is the profile's; in float depth it follows from the vertices' largest |z|, or
+  /// from that of the triangles that clipping may have cut the piece into.
+  ///   largest: the vertices' largest |z|
   Range depth_offset(const GeometryState& state, double largest) const;
 
   /// An attribute at the sample; kAnyValue where nothing bounds it.
-  ///   value, error: at the three vertices of the piece
+  ///   value, error: the attribute at the piece's three vertices, and how far it may be off there
   Range attribute(const std::array<double, 3>& value, const std::array<double, 3>& error,
                   Interpolation interpolation) const;
-  /// The same of an attribute that is made ready, with its plane's error.
+  /// An attribute at the sample, of which the vertex values and the error of their plane are known; kAnyValue where
+  /// nothing bounds it.
   Range attribute(const VertexAttribute& vertices, Interpolation interpolation) const;
 
  private:
@@ -115,31 +118,34 @@ class SurfacePoint {
   mutable std::optional<Divisors> smooth_;   ///< once asked for
 };
 
-/// Attributes of the vertices of a triangle as floats and how far a legal vertex shader may be off.
+/// The attributes of a triangle's three vertices as floats, and how far a legal vertex shader may be off in each.
 struct TriangleValues {
   std::array<VertexValues, 3> value{}, error{};
 };
 
-/// The attributes of a triangle as its vertex shader makes them.
+/// The attributes of a triangle's three vertices as its vertex shader may output them, with bounds on the error.
 TriangleValues triangle_values(const Projector& projector, uint32_t instance, uint32_t triangle);
 
-/// Sets `value` and `error` to attribute `index` at the vertices of a piece, to be interpolated so: they are
-/// combinations of the triangle's by the vertices' weights.
+/// Sets `value` and `error` to attribute `index` (a ValueIndex plus a component) at the three vertices of a piece: sums
+/// of the triangle's values by the vertices' weights, which are those that `interpolation` needs.
 void piece_values(const Piece& piece, const TriangleValues& values, size_t index, Interpolation interpolation,
                   std::array<double, 3>& value, std::array<double, 3>& error);
 
-/// VertexAttribute::plane_error of such values, which are not flat.
+/// The error of interpolating these vertex values over the piece, for VertexAttribute::plane_error. Not of flat ones.
 double plane_error_of(const Piece& piece, const PieceShape& shape, const std::array<double, 3>& value,
                       Interpolation interpolation);
 
-/// The depth as the depth buffer may hold it: offset, clamped to the depth range, and rounded to the buffer's format,
-/// fixed-point depth as k / largest, k the code.
+/// The depth that the depth buffer may hold for a fragment, after polygon offset, clamping to the depth range, and
+/// rounding to the buffer's format; in fixed point as a number from 0 to 1, code over largest code.
+///   largest: the piece's largest |z| of a vertex
 Range stored_depth(const SurfacePoint& point, const GeometryState& state, const Profile& profile, double largest);
 
-/// A depth that was read back, or cleared to, as stored_depth() has it: of fixed-point formats the nearest k / largest.
+/// The value that the depth buffer holds for a depth that was read back or cleared to: in fixed point the nearest code
+/// over the largest code, otherwise `depth`.
 double depth_in_buffer(const GeometryState& state, double depth);
 
-/// Whether a depth read back is what the buffer was cleared to: in fixed point either neighbour of clear_depth.
+/// Whether a depth that was read back is what the buffer was cleared to. In fixed point this is either code beside
+/// clear_depth.
 bool is_clear_depth(const GeometryState& state, double depth);
 
 }  // namespace trueshade::oracle

@@ -17,19 +17,20 @@ enum MaterialMap : size_t { kColorMap, kSpecularMap, kNormalMap, kMetalMap, kEmi
 /// What the maps of a material give at a sample; nothing where a map is not there, or not read.
 using SurfaceTexels = std::array<std::optional<std::array<Range, 4>>, kMaterialMaps>;
 
-/// One possible surface at one sample (x, y), pixels, y up. Borrows the projector.
+/// Bounds what one possible surface hands to the fragment shader at one sample (x, y), pixels, y up, and what its
+/// material makes of that. Borrows the projector.
 class SurfaceValues {
  public:
-  /// Makes the triangle's form, and looks its material's maps up.
+  /// Computes the triangle's form, and looks up its material's maps.
   SurfaceValues(const Projector& projector, const PossibleSurface& possible, double x, double y);
 
-  /// The same of a triangle whose form is known.
+  /// Takes a triangle whose form is known.
   ///   texels: what the maps give, where that is known already; null: they are looked up
   SurfaceValues(const Projector& projector, std::shared_ptr<const TriangleForm> form, const PossibleSurface& possible,
                 double x, double y, SurfacePoint::Within within = SurfacePoint::Within::box,
                 const SurfaceTexels* texels = nullptr);
 
-  /// SurfacePoint::bounded(): false where planes may be anything.
+  /// False where depth and attributes may be anything (SurfacePoint::bounded()).
   bool bounded() const { return point_.bounded(); }
   /// Whether the albedo comes from a lookup.
   bool textured() const { return texels_[kColorMap] || texels_[kMetalMap]; }
@@ -79,18 +80,20 @@ class SurfaceValues {
   SurfaceTexels texels_;
   std::optional<std::array<Range, 3>> bent_;
 
-  /// Whether the triangle may show its front, its back, or either: what becomes of a double-sided material's normal.
+  /// Whether the triangle may show its front, and its back: a double-sided material turns the normal of the back.
   bool may_be_front() const { return !material_->double_sided || !piece_->facing_known || piece_->front; }
   bool may_be_back() const { return material_->double_sided && (!piece_->facing_known || !piece_->front); }
 };
 
-/// A possible surface's fragment as lights read it where no plane is between, by the interpolations of `planes`.
+/// A possible surface's fragment as lights read it under forward strategies, where no G-buffer plane stores it.
+/// `planes` says how each attribute is interpolated.
 ShadedSurface shaded_surface(const SurfaceValues& values, const GBufferState& planes);
 
-/// Component k of n / |n|, n of these ranges.
+/// Component k of n / |n|, for any n in the ranges x, y, z.
 Range normalized(const Range& x, const Range& y, const Range& z, int k, const Profile& profile);
 
-/// The range of n 0.5 + 0.5, what fixed-point planes hold of a normal: halving is exact, the sum is rounded once.
+/// The range of n 0.5 + 0.5, a normal's component as fixed-point planes store it: halving is exact, the sum rounds
+/// once.
 Range halved_normal(const Range& n, const Profile& profile);
 
 }  // namespace trueshade::oracle

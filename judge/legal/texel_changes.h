@@ -7,7 +7,7 @@
 
 namespace trueshade::oracle {
 
-/// What implementations choose, one way for a whole picture.
+/// How an implementation reads textures where GL leaves it a choice, one way for a whole picture.
 struct TexelWay {
   double rho = 0;  ///< -1: rho is the largest derivative, the least that 8.14.1 allows; 0: equation 8.11; 1: the sum of
                    ///< the larger derivatives along u and v; log2 rho lies in proportion between
@@ -15,7 +15,7 @@ struct TexelWay {
   bool mesa = false;  ///< sRGB is decoded by Mesa's polynomial
 };
 
-/// What may be otherwise in all lookups of a map, each as one number for the whole picture.
+/// What may be different in all lookups of a map, through a choice or a mistake, as one number for the whole picture.
 enum class TexelCause : uint8_t {
   gain,     ///< relative: RGB times 1 + a; of a normal map the scale of x and y
   level,    ///< levels that log2 rho is more
@@ -27,15 +27,15 @@ enum class TexelCause : uint8_t {
 };
 inline constexpr size_t kTexelCauses = 7;
 
-/// A texel, and how each cause changes it.
+/// A texel, R G B A, and how much it changes for one unit of each cause.
 struct TexelChanges {
   using Rgba = std::array<double, 4>;
   Rgba texel{};                             ///< by the way
   std::array<Rgba, kTexelCauses> change{};  ///< of the texel, for one unit of each cause
 };
 
-/// What a lookup gives by a way, and how that changes. Nothing where the filter or the nearest texel may be another
-/// one, so that the nominal one says little.
+/// What a lookup gives where textures are read by `way`, and how that changes with each cause. Nothing where it is not
+/// sure which filter applies, or which texel is nearest, as the nominal texel then says little.
 ///   normals: the texture is a normal map
 std::optional<TexelChanges> texel_changes(const Texture& texture, const Sampler& sampler, const TexturePlace& place,
                                           bool normals, const TexelWay& way);

@@ -9,20 +9,21 @@
 
 namespace trueshade::oracle {
 
-/// A piece about one sample, as lookups see it.
+/// The texture coordinates of a piece at one sample, and the derivatives that a lookup there may have.
 struct TextureSample {
   Range u, v;                ///< texture coordinates
   TexturePlace nominal;      ///< and their derivatives in the middle of what is open
   TexturePlace least, most;  ///< |derivatives| over the sample and its neighbours: a GPU takes differences in a quad
 };
 
-/// A piece about the sample (x, y) as lookups see it: texture coordinates and their derivatives.
-///   uv:   the attribute's values at the piece's vertices
-///   u, v: its ranges at the sample
+/// The texture coordinates of a piece at the sample (x, y), pixels, and their derivatives.
+///   uv:   u and v at the piece's three vertices
+///   u, v: their ranges at the sample
 TextureSample texture_sample(const Piece& piece, const std::array<std::array<double, 3>, 2>& uv, Interpolation how,
                              const Range& u, const Range& v, double x, double y);
 
-/// RGBA of a lookup: nominal value and hull, over the places of the sample and what Profile::sampling leaves open.
+/// The RGBA that a lookup may return: nominal value, and the least and largest over all coordinates of the sample and
+/// over all that Profile::sampling leaves open.
 ///   hulls: if not null, keeps what is found of whole levels for other lookups; never changes a value
 std::array<Range, 4> texel_range(const Texture& texture, const Sampler& sampler, const TextureSample& sample,
                                  const Profile& profile, LevelHulls* hulls = nullptr);

@@ -11,25 +11,26 @@
 
 namespace trueshade::oracle {
 
-/// What all samples of a triangle have in common. For one thread at a time: some of it is made when it is first asked
-/// for.
+/// What all samples of a triangle share: its pieces, their shapes, its vertices' values. For one thread at a time, as
+/// some of it is made when it is first asked for.
 class TriangleForm {
  public:
-  /// Makes the pieces, their shapes and the vertices' values. Borrows the projector.
+  /// Computes the pieces, their shapes and the vertices' values. Borrows the projector.
   TriangleForm(const Projector& projector, uint32_t instance, uint32_t triangle);
 
-  /// Projector::pieces() of the triangle.
+  /// The triangle's pieces, from Projector::pieces().
   const std::vector<Piece>& pieces() const { return pieces_; }
-  /// The shape of a piece.
+  /// The shape of one of the pieces.
   const PieceShape& shape(size_t piece) const { return forms_[piece].shape; }
-  /// triangle_values() of the triangle.
+  /// The vertices' attributes, from triangle_values().
   const TriangleValues& values() const { return values_; }
 
-  /// An attribute at the vertices of a piece, ready for this interpolation, which is not flat.
+  /// An attribute's values at the vertices of a piece, as `interpolation` needs them; not for flat.
   ///   index: a ValueIndex plus a component
   const VertexAttribute& attribute(size_t piece, size_t index, Interpolation interpolation) const;
 
-  /// The frame of the uv set that the material's normal map reads; of vertices' tangents the side alone.
+  /// The frame that the material's normal map is read in, by the map's uv set. Where the mesh has vertex tangents only
+  /// the frame's `side` is set.
   const TangentFrame& tangents() const;
 
  private:
@@ -49,13 +50,13 @@ class TriangleForm {
   mutable std::optional<TangentFrame> tangents_;
 };
 
-/// The triangles that were asked for last. For one thread at a time.
+/// A cache of the forms of triangles that were asked for last. For one thread at a time.
 class TriangleForms {
  public:
   /// Borrows the projector.
   explicit TriangleForms(const Projector& projector) : projector_(projector), slots_(kSlots) {}
-  /// The form of a triangle, which is made unless it is kept. The reference is valid until the next call, its copies
-  /// longer.
+  /// The form of a triangle, made now unless it is in the cache. The reference is valid until the next call; a copy of
+  /// the pointer keeps the form alive.
   const std::shared_ptr<const TriangleForm>& of(uint32_t instance, uint32_t triangle);
 
  private:

@@ -10,14 +10,14 @@
 
 namespace trueshade::oracle {
 
-/// What the driver made of a plan.
+/// A frame as the probed driver drew it, with the plan that it was drawn by. Borrows the plan.
 struct ProbeFrame {
   const ProbePlan* plan = nullptr;
   Capture capture;
   LightSteps steps;  ///< of strategies that blend
 };
 
-/// What was found of a field, or of fields that go together.
+/// What the frames tell of one field of the profile, or of fields that go together.
 struct ProbedField {
   enum class State : uint8_t {
     told,     ///< the value holds in every frame, and a tighter one, or the other ones, do not
@@ -26,28 +26,28 @@ struct ProbedField {
   };
   std::string field, value;  ///< as the profile's file spells them; the word `unknown` where it is not told
   State state = State::open;
-  int tried = 0;        ///< values
+  int tried = 0;        ///< how many values were tried
   std::string against;  ///< the frame that speaks against the next tighter value; empty where there is none
 };
 
-/// What was found of a driver.
+/// What the frames of a driver tell of its profile.
 struct ProbeResult {
   Profile profile;
   std::vector<ProbedField> fields;
   std::vector<std::string> set_aside;  ///< frames that no OpenGL may have drawn: nothing is learnt of these
 };
 
-/// Finds the tightest profile that no frame speaks against, and calls it `name`. Each value of each field is asked of
-/// frames until one of them speaks against it: some seconds of one core.
+/// Finds the tightest profile that no frame contradicts, and gives it this name. Each value of each field is held
+/// against frames until one contradicts it; takes some seconds of one core.
 ProbeResult probe_profile(const std::vector<ProbeFrame>& frames, const std::string& name);
 
-/// A held-out frame under a profile.
+/// What a profile makes of a frame that was not used to find it.
 struct ProbeCheck {
   std::string frame;
   uint64_t pixels = 0, exact = 0, violations = 0;  ///< of all stages
 };
 
-/// Judges a frame by a profile.
+/// Counts the pixels of a frame by how they fare under a profile, over all stages of the judgement.
 ProbeCheck check_profile(const ProbeFrame& frame, const Profile& profile);
 
 }  // namespace trueshade::oracle

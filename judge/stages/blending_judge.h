@@ -19,7 +19,7 @@
 
 namespace trueshade::oracle {
 
-/// What a pixel was found to be so far; under judge_blended() also what it may hold.
+/// What is known of a pixel so far: its class, and under judge_blended() also what it may hold.
 struct PixelState {
   PixelClass pixel_class = PixelClass::exact;
   double same = 1;     ///< predicted probability that every light drew as nominal
@@ -33,13 +33,15 @@ struct PixelState {
   PixelClass doubt = PixelClass::branch;
   int lights_low = 0, lights_high = 0;  ///< fragments of lights in range and facing so far: light.count
 
-  /// Notes one more draw, which leaves `t` by the likely rule, with that draw's own chance of another rounding.
+  /// Notes that one more draw outputs `source` and leaves `t` by the likely rule. Adds the chance of another rounding
+  /// of that draw.
   void draw_likely(const Texel& t, const std::array<Range, 4>& source);
-  /// What the likely rule leaves after all draws, with the chances of all of them.
+  /// What channel k holds after all draws by the likely rule, with the chance that any of them rounded otherwise.
   LegalTexel likely_channel(size_t k) const;
 };
 
-/// Called in this order: start(), light() for each light, find_layers() if the image is judged alone, verdict().
+/// Judges one target by one profile. Call in this order: start(), light() for each light, find_layers() if only the
+/// last image is judged, verdict().
 class BlendingJudge {
  public:
   /// Borrows all but the profile. Throws as CapturedSurface does.
@@ -47,20 +49,22 @@ class BlendingJudge {
                 const JudgedRows& judged = {});
 
   /// Judges the target as it was before the first light: the clear value or, where the pipeline draws one, the base.
-  /// `given`: the target as captured then; null: it was not seen, and what it may hold is carried on to the last image.
   /// Called once, before light().
+  ///   given: the target as captured then; null: it was not captured, and what it may hold is carried on to the last
+  ///          image
   void start(const Image* given);
 
-  /// The next light, in order from 0. `given`: the target as captured after it; null exactly where start() had null.
-  /// Lights are judged many at a time, so that what a pixel's lights share is computed once.
+  /// Judges one more light; indices come in order from 0. Lights are judged many at a time, so that what a pixel's
+  /// lights share is computed once.
+  ///   given: the target as captured after the light; null exactly where start() had null
   void light(int index, const Image* given);
 
   /// Finds the transparent surfaces, which verdict() then blends over what the lights may leave. Only judge_blended()
-  /// calls it. It finds nothing where the pipeline blends none after the lights.
+  /// calls it. It finds nothing where the pipeline blends no surfaces after the lights.
   void find_layers(const Capture& capture);
 
-  /// Judges the lights that are left and, if `last` is not null, that image, and returns what was found. Called once.
-  ///   last: the final image, where the steps were not seen; else null
+  /// Judges the lights that are left, and returns what was found in all of them. Called once.
+  ///   last: the final image, which is judged too, where the target was not captured light by light; else null
   StageVerdict verdict(std::string_view stage, const Image* last);
 
  private:
@@ -96,7 +100,8 @@ class BlendingJudge {
         {uint64_t(uint32_t(light)) << 32 | count.triangle, uint32_t(at(x, y)), count.chance_other});
   }
 
-  /// Depths that may be equal are so for all lights or for none.
+  /// Notes that surfaces may share the visible one's depth at the pixel: such depths are equal for all lights or for
+  /// none.
   void may_tie(int x, int y) {
     for (const TiedSurface& t : tied_->at(x, y)) {
       if (t.certain) continue;

@@ -7,7 +7,7 @@
 
 namespace trueshade::oracle {
 
-/// The surface of each pixel, from the capture's own planes. Borrows the capture. y counts from the top.
+/// What the light pass reads of each pixel, from the capture's own planes. Borrows the capture. y counts from the top.
 class CapturedSurface {
  public:
   /// Throws Error(bad_input) naming a plane that the light model reads and the capture lacks, or that has another size
@@ -15,12 +15,12 @@ class CapturedSurface {
   /// inverse where positions are rebuilt from depths.
   CapturedSurface(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture);
 
-  /// Whether there is a surface, by id.object or, without it, by the depth.
+  /// Whether the pixel shows a surface, as id.object tells or, without that plane, the depth.
   bool covered(int x, int y) const;
-  /// The surface as the light pass reads it; where there is none, what the planes hold there.
+  /// The pixel's surface as the light pass reads it. Where no surface is, whatever the planes hold there.
   ShadedSurface at(int x, int y) const;
 
-  /// The target's alpha where there is a surface, before any clamp.
+  /// The alpha that the light pass outputs for a surface, before the target clamps it: the albedo's, or 1.
   Bounded alpha(const ShadedSurface& surface) const {
     return pipeline_.light_model.alpha_from_albedo ? surface.albedo[3] : Bounded{1, 0};
   }
@@ -47,11 +47,12 @@ class CapturedSurface {
   Matrix4 world_from_clip_{};
 };
 
-/// Throws Error(bad_input) naming a plane that a light program reads and the capture lacks.
+/// Throws Error(bad_input), naming the plane, if a light program reads id.material or id.object and the capture lacks
+/// it.
 void require_planes_of(const ProgramBounds& program, const Capture& capture);
 
-/// A component of a normal as shaders read it from a fixed-point plane: 2 c - 1. Doubling is exact, contracted or not
-/// the difference is rounded once.
+/// A normal's component as shaders compute it from a fixed-point plane: 2 c - 1, c what they fetch. Doubling is exact,
+/// and the difference is rounded once, fused or not.
 Bounded doubled_normal(const Bounded& fetched, const Arithmetic& arithmetic);
 
 }  // namespace trueshade::oracle

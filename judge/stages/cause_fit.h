@@ -1,5 +1,5 @@
 #pragma once
-// How much of each of several causes a plane's deviations show: least squares within bounds.
+// Least squares: how much of each of several causes explains how far a plane is from its nominal values.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -7,16 +7,17 @@
 
 namespace trueshade::oracle {
 
-/// A channel of a pixel: how far it is from nominal, and what one unit of each cause would make of it.
+/// How far one channel of a pixel is from its nominal value, and how far one unit of each cause would move it.
 struct Deviation {
-  double given = 0;              ///< stored less nominal, in steps of the plane
+  double given = 0;              ///< stored minus nominal: in codes where the plane has codes, else in its own unit
   std::vector<double> by_cause;  ///< of one unit, in the same steps; as many as there are causes
-  uint64_t cluster = 0;          ///< deviations of one cluster are one choice: equal values round alike
-  uint32_t place = 0;            ///< what is left at one place may be alike, whatever the values
-  double noise = 0;              ///< what rounding makes of the deviation, a standard deviation
+  uint64_t cluster = 0;          ///< deviations of one cluster count as one: equal values round alike
+  uint32_t place = 0;            ///< what the fit leaves may be alike at one place (pixels near each other)
+  double noise = 0;              ///< standard deviation of what rounding makes of the deviation
 };
 
-/// What an implementation may have of a cause, as one number for the whole picture.
+/// The amounts of a cause that an implementation may have, one amount for the whole picture. 24^ How much of one cause
+/// the deviations show.
 struct CauseBounds {
   double low = 0, high = 0;
 };
@@ -30,18 +31,19 @@ struct CauseEstimate {
   double error_of_places = 0;  ///< the same from how much places differ, where what is left is alike
   size_t places = 0;
 
-  /// A standard deviation: the larger of `error` and `error_of_places`, the latter widened, as few places make it, so
-  /// that `deviations` times the result is exceeded as rarely as by a normal distribution. Infinite where there are
-  /// fewer than two places. `deviations` is above 0.
+  /// A standard deviation of `value` such that `deviations` (above 0) times it is exceeded as rarely as by a normal
+  /// distribution: the larger of `error` and `error_of_places`, the latter widened where places are few. Infinite where
+  /// there are fewer than two places.
   double error_at(double deviations) const;
 };
 
-/// The least sum of squares, over clusters, that causes within their bounds leave of the deviations; 0 of none.
+/// The least sum of squares, each cluster counted once, that any amounts of the causes within their bounds leave of the
+/// deviations; 0 where there are no deviations.
 double left_within(std::span<const Deviation> deviations, std::span<const CauseBounds> bounds);
 
-/// Each cause's estimate. A cluster counts once, however many deviations it has. A cause that no deviation shows is 0,
-/// with an infinite error. Errors are those of clusters, whatever
-/// is behind them: White's estimator (Halbert White, A Heteroskedasticity-Consistent Covariance Matrix Estimator,
+/// Estimates each cause; the result has as many elements as `bounds`. A cluster counts once, however many deviations it
+/// has. A cause that no deviation shows is 0, with an infinite error. Errors follow from how the clusters scatter,
+/// whatever the reason: White's estimator (Halbert White, A Heteroskedasticity-Consistent Covariance Matrix Estimator,
 /// Econometrica 48, 1980), over clusters.
 std::vector<CauseEstimate> estimate_causes(std::span<const Deviation> deviations, std::span<const CauseBounds> bounds);
 

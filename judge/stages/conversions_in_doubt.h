@@ -7,18 +7,18 @@
 
 namespace trueshade::oracle {
 
-/// The draws of a row of pixels whose conversion may give either of two codes. Of rows with very many some pixels alone
-/// are kept, chosen by a number that looks like chance.
+/// Remembers, for a row of pixels, the draws whose conversion to a code may have given either of two codes. Of rows
+/// with very many, it keeps those of some pixels only, chosen pseudo-randomly.
 class ConversionsInDoubt {
  public:
-  /// Notes a draw at x that is blended over what was there.
+  /// Notes a draw in column x whose code is added to what was there.
   void add(int x, const NearThreshold& conversion);
 
-  /// Notes that a draw at x replaces what was there: what was noted of that channel is forgotten.
+  /// Notes a draw in column x that overwrites a channel: forgets what was noted of that channel there.
   void replace(int x, int channel);
 
-  /// The conversions of a channel of a pixel, in the order of the draws; none where the pixel is not kept. Valid until
-  /// the next draw.
+  /// The conversions that were noted of one channel of the pixel in column x, in the order of the draws; none where the
+  /// pixel is not kept. Valid until the next add() or replace().
   std::span<const NearThreshold> at(int x, int channel);
 
  private:

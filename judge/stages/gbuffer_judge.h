@@ -13,7 +13,7 @@
 
 namespace trueshade::oracle {
 
-/// A plane whose values are interpolated.
+/// A plane of the capture whose values are interpolated over triangles.
 struct AttributePlane {
   const char* name;
   PlaneView view;
@@ -23,13 +23,14 @@ struct AttributePlane {
   Interpolation interpolation;
 };
 
-/// What is asked of each pixel.
+/// What a judgement looks for: each pixel's class, or violations alone.
 enum class Asked : uint8_t { classes, violations };
 
-/// The texel of the last range that was asked for: colours are constant over many pixels.
+/// legal_texel() with its last result kept: colours are constant over many pixels.
 class LastTexel {
  public:
-  /// legal_texel() of a range. The plane, the channel and the profile are the same at every call.
+  /// The values that a channel may hold for an output in `range`. Plane, channel and profile are the same at every
+  /// call.
   const LegalTexel& of(const Range& range, const PlaneView& view, int channel, const Profile& profile) {
     const bool is_same =
         is_known_ && range.value == range_.value && range.low == range_.low && range.high == range_.high;
@@ -44,7 +45,7 @@ class LastTexel {
   LegalTexel texel_;
 };
 
-/// What one thread keeps from pixel to pixel.
+/// Working memory of one thread, kept from pixel to pixel.
 struct GBufferMemory {
   /// Borrows the projector.
   explicit GBufferMemory(const Projector& projector) : forms(projector), narrowed(projector, forms) {}
@@ -57,17 +58,17 @@ struct GBufferMemory {
 /// Judges the surfaces of one capture by one profile. Borrows the scene, the capture and `wider`.
 class GBufferJudge {
  public:
-  /// Finds the possible surfaces of the rows, unless `wider` has them. Throws as judge_gbuffer().
-  /// wider: possible surfaces by a profile that allows all of this one; null: they are looked for here.
-  /// hulls: of the scene's textures; null where none are known.
+  /// Finds the surfaces that the pixels of the rows may show, unless `wider` gives them. Throws as judge_gbuffer().
+  ///   wider: surfaces found under a profile that allows all that `profile` allows; null: there are none
+  ///   hulls: of the scene's textures, as another judge found them; null: there are none
   GBufferJudge(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
                const JudgedRows& rows, Asked asked, const PossibleSurfaces* wider, std::shared_ptr<LevelHulls> hulls);
 
-  /// Judges the rows from y to before `end` into `rows`, tile by tile: pixels that are near each other show the same
-  /// triangles. From any thread.
+  /// Judges the rows from y to before `end`, counted from the top, and writes the results to rows[y] and on. Goes tile
+  /// by tile, as pixels near each other show the same triangles. From any thread.
   void judge_band(int y, int end, std::vector<RowTally>& rows) const;
 
-  /// Hands over what was found. The last call.
+  /// Returns the possible surfaces and the texture hulls that were found. The last call, as it moves them out.
   FoundSurfaces take_found() { return {std::move(possible_), projector_.level_hulls()}; }
 
  private:
@@ -76,7 +77,7 @@ class GBufferJudge {
     return size_t(pipeline_.height - 1 - y_top) * size_t(pipeline_.width) + size_t(x);
   }
 
-  /// Whether a depth key is sure to pass the test against the clear value.
+  /// Whether a fragment with this depth key surely passes the depth test against the clear value.
   bool passes_clear(double key) const {
     const GeometryState& g = pipeline_.geometry;
     const bool equal_passes = g.depth_func == DepthFunc::lequal || g.depth_func == DepthFunc::gequal;
@@ -85,42 +86,42 @@ class GBufferJudge {
   }
 
   bool is_clear(int x, int y) const;
-  /// Whether an albedo without a surface is what transparent surfaces may have left on the clear value.
+  /// Whether an albedo, where no opaque surface is seen, is what transparent surfaces may leave on the clear value.
   bool is_layered(const PlaneView& view, int x, int y) const;
-  /// The albedo of a surface under transparent ones.
+  /// Judges the albedo where transparent surfaces are blended over an opaque one.
   template <typename Found>
   void judge_layered(const AttributePlane& plane, const SurfaceValues& surface, int x, int y_top, Found& m) const;
-  /// The values that a plane may hold where what was packed is in `packed`.
+  /// The range of an unpacked value, widened by how far storing the packed one may move it.
   static Range widened(const Range& packed, const PlaneView& view, int x, int y_top) {
     const double error = view.packing_error(x, y_top);
     return {packed.value, packed.low - error, packed.high + error};
   }
 
-  /// What a plane may hold of a normal's component.
+  /// The range of what a plane may hold of component k of a surface's normal.
   Range held_normal(const AttributePlane& plane, const SurfaceValues& surface, int k, int x, int y_top) const;
-  /// Holds the pixel against one surface, and returns whether that is bounded there. Found: Match, or what has its
-  /// members but asks for nothing beyond the pixel's legality.
+  /// Compares the pixel with one surface, and returns whether the surface's planes are bounded there.
+  ///   Found: Match, or a type with its members that asks only whether the pixel is legal
   template <typename Found>
   bool compare(const Projector& projector, const PossibleSurface& c, int x, int y_top, GBufferMemory& memory,
                SurfacePoint::Within within, Found& m) const;
-  /// How the pixel fares against one surface, and whether that is `bounded` there.
-  ///   worst_error: the largest one so far; what is less is not told
+  /// How the pixel compares with one surface. Sets `bounded` to whether the surface's planes are bounded there.
+  ///   worst_error: the largest error found so far; a smaller one is not reported
   Match match(const PossibleSurface& c, int x, int y_top, GBufferMemory& memory, bool& bounded,
               double worst_error) const;
-  /// Whether the pixel shows one surface with its vertices in the middle of their boxes: it is legal then, and else may
-  /// be so.
+  /// Whether the pixel shows one surface with its vertices in the middle of their boxes. If so, the pixel is legal; if
+  /// not, it may still be legal.
   bool fits_middle(const PossibleSurface& c, int x, int y_top, GBufferMemory& memory) const;
-  /// Judges a stored shininess, which is an integer of the range.
+  /// Judges a stored shininess, which must be a whole number within the range.
   template <typename Found>
   void judge_shininess(const Range& range, double stored, uint32_t pixel, bool looked_up, Found& m) const;
 
   template <typename Found>
   void judge_own_plane(const PlaneView& view, const char* name, const Range& range, int x, int y_top, Found& m) const;
 
-  /// Possible surfaces that may be seen, the nominal one first.
+  /// Sets `legal` to the surfaces that may be seen, the nominal one first.
   void find_legal(std::span<const PossibleSurface> all, std::vector<const PossibleSurface*>& legal,
                   const PossibleSurface*& nominal, bool& certain) const;
-  /// What the pixel tells of maps, or of the glass before it, for the tests of the whole image.
+  /// Keeps what the pixel tells of material maps, or of the glass before it, for the tests of the whole image.
   void keep_for_materials(const PossibleSurface& shown, int x, int y_top, GBufferMemory& memory, RowTally& row) const;
   void judge_pixel(std::span<const PossibleSurface> all, int x, int y_top, GBufferMemory& memory, RowTally& row) const;
   void find_violation(int x, int y_top, GBufferMemory& memory, RowTally& row) const;
@@ -142,7 +143,7 @@ class GBufferJudge {
   std::optional<TransparentLayers> layers_;  ///< blended into the albedo
 };
 
-/// Judges these rows, with every core, and returns the verdict.
+/// Judges the given rows with every core, and adds them up to a verdict.
 StageVerdict verdict_by(const GBufferJudge& judge, const Pipeline& pipeline, const Profile& profile,
                         const JudgedRows& judged);
 

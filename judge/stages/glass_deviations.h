@@ -5,8 +5,9 @@
 
 namespace trueshade::oracle {
 
-/// Adds the colour channels of a pixel to the row, where they tell of one material and the pixel is_sampled().
-///   from: what the pixel nominally holds before the layers, values
+/// Adds to row.glass how far each colour channel of a pixel is from what its layers of glass nominally leave. Adds
+/// nothing where TransparentLayers::change() has no answer, and where the pixel is not is_sampled().
+///   from: what the pixel nominally holds before the layers, as values, not codes
 void keep_glass(const TransparentLayers& layers, const TransparentPixel& pixel, const std::array<double, 4>& from,
                 const PlaneView& view, int x, int y, RowTally& row);
 

@@ -5,10 +5,10 @@
 
 namespace trueshade::oracle {
 
-/// What judge_lighting() does for strategies that blend, where the final image is all there is: the set of values a
-/// pixel may hold, carried through all lights as an interval. Two of them, where some light may or may not draw: of the
-/// nominal draws, and of all. No light is told apart, and what could cancel is not followed, so this is the weaker
-/// judge of the two; its rounding choices are not counted for the tests of the whole image.
+/// What judge_lighting() does under strategies that blend, where only the final image is captured. It carries the
+/// interval of values that a pixel may hold through all lights; where a light may or may not draw, a second one by the
+/// nominal draws alone. It does not tell lights apart, nor follows what could cancel, so it is weaker than
+/// judge_blending(). Its rounding choices are not counted for the tests of the whole image.
 StageVerdict judge_blended(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
                            const JudgedRows& rows = {});
 

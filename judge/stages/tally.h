@@ -13,7 +13,7 @@
 
 namespace trueshade::oracle {
 
-/// A plane of the capture, with what its format means for a store. Values of unorm planes are codes.
+/// A plane of the capture, and how its format stores. Values of unorm planes are integer codes, 0 to the largest.
 struct PlaneView {
   const Image* image = nullptr;
   FormatInfo layout = info(Format::rgba32f);
@@ -21,11 +21,11 @@ struct PlaneView {
   const DecodedPlane* decoded = nullptr;  ///< where the values are unpacked ones
 
   PlaneView() = default;
-  /// Borrows the image; null: an empty view, of which nothing but operator bool is asked.
+  /// Views an image, which it borrows. Of null it makes an empty view, on which only operator bool may be called.
   explicit PlaneView(const Image* i);
-  /// Whether there is a plane.
+  /// Whether the view has a plane.
   explicit operator bool() const { return image != nullptr; }
-  /// The code, or the float or integer, that a channel holds; y from the top.
+  /// What a channel holds: a code, a float or an integer. y from the top.
   double stored(int x, int y, int channel) const {
     if (!is_words_) return stored_otherwise(x, y, channel);
     uint32_t word;
@@ -33,26 +33,29 @@ struct PlaneView {
                 sizeof word);
     return layout.number_class == NumberClass::integer ? double(word) : double(std::bit_cast<float>(word));
   }
-  /// Whether channels hold codes.
+  /// Whether channels hold unorm codes.
   bool unorm() const { return layout.number_class == NumberClass::unorm; }
-  /// DecodedPlane::reading_error of a component; 0 of a plane that is as it was stored. y from the top.
+  /// How far what a shader unpacks may be from the pixel's unpacked value (DecodedPlane::reading_error); 0 for a plane
+  /// that was not packed. y from the top.
   double reading_error(int x, int y) const {
     return decoded == nullptr ? 0 : decoded->at(decoded->reading_error, pixel(x, y));
   }
-  /// DecodedPlane::packing_error of a component; 0 of a plane that is as it was stored. y from the top.
+  /// How far storing the packed value may have moved the pixel's value (DecodedPlane::packing_error); 0 for a plane
+  /// that was not packed. y from the top.
   double packing_error(int x, int y) const {
     return decoded == nullptr ? 0 : decoded->at(decoded->packing_error, pixel(x, y));
   }
-  /// The index of a pixel; y from the top.
+  /// The index of a pixel in row-major order; y from the top.
   size_t pixel(int x, int y) const { return size_t(y) * size_t(image->width) + size_t(x); }
-  /// Whether channels hold codes or small floats, so that stores round.
+  /// Whether stores round: channels hold codes or floats of fewer than 32 bits.
   bool quantised() const { return unorm() || layout.small_float(); }
-  /// A value as the plane would hold it but for rounding: of fixed point in codes, sRGB encoded; else the value itself.
+  /// What a channel would hold of `value` without rounding: in fixed point a code, of the sRGB encoding where the
+  /// format has one; otherwise the value itself.
   double held(double value, int channel) const;
-  /// How far the stored channel is from what it is expected to hold; nothing where the format clamps it, where it is a
-  /// float of 10 or 11 bits, and where one of the two is NaN or infinite. The causes are left to the caller.
+  /// The stored channel minus `expected`, which is in the unit of held(). Nothing where the format may have clamped it,
+  /// for floats of 10 or 11 bits, and where one of the two is NaN or infinite. The caller adds `by_cause`.
   std::optional<Deviation> deviation(int x, int y, int channel, double expected) const;
-  /// A constant a shader writes, as stored() has it: exactly stored by every format.
+  /// A constant that a shader writes, 0 or 1, as stored() reads it: every format stores it exactly.
   double constant(double value, int channel) const { return unorm() ? value * layout.largest_code(channel) : value; }
 
  private:
@@ -60,24 +63,25 @@ struct PlaneView {
   bool is_words_ = false;  ///< floats of 32 bits or integers
 };
 
-/// A channel of a plane as verdicts name it: `color.R`, `position.Z`, `uv.U`, `depth.Z`; planes of one number, such as
+/// The name of a plane's channel in verdicts: `color.R`, `position.Z`, `uv.U`, `depth.Z`; planes of one number, such as
 /// `id.object`, go by their own name.
 std::string channel_of(std::string_view plane, int channel);
 
-/// The plane of that name, empty if there is none. Error(bad_input) if its size is not the pipeline's.
+/// The capture's plane of that name (`color`: the target); an empty view if there is none. Error(bad_input) if its size
+/// is not the pipeline's.
 PlaneView plane_of(const Capture& capture, const Pipeline& pipeline, std::string_view name);
 
-/// The target. Error(bad_input) if there is none, or its size is not the pipeline's.
+/// The capture's target, the plane `color`. Error(bad_input) if there is none, or its size is not the pipeline's.
 PlaneView target_of(const Capture& capture, const Pipeline& pipeline);
 
-/// A store of codes or small floats.
+/// One store that rounded, for comparison with the same store of the next pixel.
 struct SeenStore {
-  float value;   ///< the real value before it
-  bool is_sure;  ///< the likely rule leaves one outcome
+  float value;   ///< the real value before the store
+  bool is_sure;  ///< the likely rule leaves one outcome for it
   int8_t taken;  ///< as in StoreChoice
 };
 
-/// How one pixel fares against one surface.
+/// How one pixel compares with one surface: whether all channels are legal, the worst channel, and its roundings.
 struct Match {
   bool legal = true;
   bool tex = false;         ///< some channel took a value that another legal lookup gives
@@ -97,33 +101,37 @@ struct Match {
   uint64_t stored_values = 0;
   PixelClass layered = PixelClass::exact;  ///< of transparent fragments, another number than the nominal one
 
-  /// Judges one channel: sets `legal` to false where the stored number is not legal, as NaN is not unless anything is.
-  /// Else notes the channel's error, its rounding and the choice that it had.
+  /// Judges one channel: sets `legal` to false where `stored` is none of the values that an output in `range` may be
+  /// stored as; NaN is one only where anything is. Otherwise notes the channel's error, its rounding, and the choice it
+  /// had.
   void channel_is(const PlaneView& view, const char* name, int channel, const Range& range, double stored,
                   uint32_t pixel, const Profile& profile);
-  /// The same of a channel that a texture lookup decides: another legal value is TEX, and no rounding to be counted.
+  /// Judges one channel whose value comes from a texture lookup, as channel_is() does, but another legal value than the
+  /// nominal one sets `tex`, and no rounding is noted.
   void lookup_is(const PlaneView& view, const char* name, int channel, const Range& range, double stored,
                  uint32_t pixel, const Profile& profile);
-  /// The same of a channel whose legal texels are known; `value` is the real one before the store.
+  /// Judges one channel, as channel_is() does, whose legal values `texel` are known. `value`: the real number before
+  /// the store.
   void texel_is(const PlaneView& view, const char* name, int channel, const LegalTexel& texel, double value,
                 double stored, uint32_t pixel, const Profile& profile);
   /// Sets `legal` to false, and keeps the channel if it is the farthest outside so far; NaN is infinitely far.
-  ///   unit: what the excess is counted in, unless the range is wider
+  ///   unit: distance outside that counts as an excess of 1; the range's width where that is more
   void note(const char* name, int channel, const LegalTexel& legal, double stored, double unit);
 };
 
-/// The choice that a store had, by what the likely rule makes of its value. One that the rule rules out has a chance of
-/// 0, wherever it lies.
+/// What a store chose, by what the likely rule expects of its value: `likely`. Its chance is 0 where that rule excludes
+/// what was stored.
 StoreChoice choice_of(const PlaneView& view, int channel, uint32_t pixel, double value, const LegalTexel& likely,
                       double stored, const Profile& profile);
 
-/// Whether a verdict may list a pixel of that class.
+/// Whether pixels of that class are listed in a verdict (StageVerdict::worst): all but EXACT and STORE-2.
 inline bool is_told(PixelClass c) { return c != PixelClass::exact && c != PixelClass::store_2; }
 
-/// Whether a pixel is one of those that tests of materials look at: of a large image some are enough.
+/// Whether a pixel, by its index, is in the pseudo-random sample that tests of materials look at: all pixels of a small
+/// image, some 24,000 of a large one.
 bool is_sampled(uint32_t pixel, int width, int height);
 
-/// One row's share of a verdict.
+/// What was found in one row of an image, to be added up by verdict_of().
 struct RowTally {
   std::vector<PixelClass> classes;
   uint64_t covered = 0, ambiguous = 0, stored_values = 0, stored_apart = 0;
@@ -137,16 +145,17 @@ struct RowTally {
   std::vector<float> excess;  ///< of violations by x, as far as the last of them
   std::vector<float> shown;   ///< of some lit pixels: the part by which light must be off to be a violation there
 
-  /// Notes that a pixel (y * width + x, y from the top) may show another surface or branch.
+  /// Notes that a pixel (y * width + x, y from the top) may show another surface or branch, with the given probability.
+  ///   surface: the instance and triangle nominally seen
   void may_be_other(uint32_t pixel, uint64_t surface, double chance);
-  /// Takes the pixel that comes next in the row: its class, its stores beside those of the pixel to the left, and what
-  /// record() takes. Stores of an UNDEFINED pixel do not count.
+  /// Adds the row's next pixel: its class, a comparison of its stores with those of the pixel to the left, and what
+  /// record() adds. Stores of an UNDEFINED pixel do not count.
   ///   surface: the surface meant, in words; read where the class is_told()
   void take(int x, int y, PixelClass c, const Match& match, const std::string& surface);
-  /// Takes a pixel that is not judged.
+  /// Adds the row's next pixel as one that is not judged.
   void leave_out() { classes.push_back(PixelClass::left_out); }
-  /// Adds a pixel's figures, choices and, where the class is_told(), a WorstPixel. Not its class: for a stage that
-  /// looks at a pixel more than once.
+  /// Adds a pixel's errors, its rounding choices and, where the class is_told(), a WorstPixel. It leaves out the class,
+  /// for stages that look at a pixel more than once.
   void record(int x, int y, PixelClass c, const Match& match, const std::string& surface);
 
  private:
@@ -161,11 +170,12 @@ struct RowTally {
   int before_x = -2;
 };
 
-/// The profile as it applies: `ideal` follows the pipeline's half_round; of others that allow either, it is nominal.
-/// The likely rule of stores is the tightest that the profile's knobs leave, nearest codes where they leave all.
+/// The profile with what it leaves to the pipeline filled in. `ideal` rounds halves as the pipeline's half_round says;
+/// for others that allow both ways, that way is nominal. `likely` becomes the tightest rule that the profile's fields
+/// leave, nearest codes where they leave all.
 Profile resolved(const Profile& profile, const Pipeline& pipeline);
 
-/// Adds up the rows, from the top. The pixels of a row that was not judged are EXACT.
+/// Adds up the rows of a stage, from the top. Pixels of a row that was not judged are EXACT, and in no count.
 StageVerdict verdict_of(std::string_view stage, const Profile& profile, int width, int height,
                         std::vector<RowTally>& rows);
 

@@ -14,7 +14,7 @@
 
 namespace trueshade::oracle {
 
-/// The deviations of one material's channels that go together.
+/// How far one plane's channels are from nominal at the textured pixels of one material.
 struct TextureDeviations {
   uint32_t material = 0;
   std::string_view plane;         ///< `albedo`, `albedo.A`, `specular`, `emission`, `emission.A`, `normal`
@@ -22,10 +22,10 @@ struct TextureDeviations {
   std::vector<Deviation> list;    ///< in the order of the pixels
 };
 
-/// How far the textured pixels are from nominal, by material and plane, with what one unit of each cause would make of
-/// them. Pixels whose nearest texel is in doubt, and values that a format clamps, are passed over.
-///   profile: resolved()
-///   way: of all lookups
+/// How far textured pixels are from nominal, by material and plane, and how far one unit of each cause would move them.
+/// Leaves out pixels whose nearest texel is in doubt, and values that a format clamps.
+///   profile: as resolved() returns it
+///   way: how all lookups are made
 std::vector<TextureDeviations> texture_deviations(const Scene& scene, const Pipeline& pipeline, const Profile& profile,
                                                   const Capture& capture, std::span<const TexturedPixel> textured,
                                                   const TexelWay& way);

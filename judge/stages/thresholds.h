@@ -1,5 +1,5 @@
 #pragma once
-// Where a conversion to codes changes from one code to the next, as an image shows it.
+// Conversions of values to unorm codes: where the code changes from one to the next, as an image shows it.
 #include <optional>
 #include <span>
 
@@ -8,23 +8,23 @@
 
 namespace trueshade::oracle {
 
-/// A value that is converted to codes, if a conversion within `reach` of them may give either of two; nothing where it
-/// can give one alone.
-///   range: before it is scaled by `largest`; what rounding the product may add is added here
+/// A value whose conversion to a code may give either of two codes, by a rule that rounds within `reach` codes; nothing
+/// where only one code is possible.
+///   range: the value in [0, 1], before it is scaled by `largest`; the rounding of the product is added here
 ///   before: the code that the result is added to; 0 where it is stored
-/// `sum_of` and `uppers` are left to the caller.
+/// Leaves `sum_of` and `uppers` to the caller.
 std::optional<NearThreshold> near_threshold(const Range& range, double largest, double reach, uint32_t before,
                                             int channel);
 
-/// Whether a target's conversion to codes is looked at: by a rule that reaches beyond half a code, of codes that are
-/// not those of sRGB.
+/// Whether the target's conversions to codes are worth testing: the likely rule may round to a code more than half a
+/// code away, and codes are neither of sRGB, nor llvmpipe's, nor of sums kept in floats.
 bool converts_as_seen(const PlaneView& target, const Profile& profile);
 
-/// The least number of stores that no nondecreasing conversion makes, whatever its thresholds (D3D11.3 functional
-/// spec, 3.2.3.6: conversions to integers do not decrease). Values are anywhere between their bounds; equal ones count
-/// once. Which way each conversion of a sum went is told where all went one way, or where the thresholds that other
-/// sums show leave one outcome; a sum that these rule out counts as one. The conversion may be of what is added, or of
-/// what the sum becomes: of both the lesser number.
+/// How many stores contradict every nondecreasing conversion of values to codes, at least, whatever the thresholds
+/// between codes (D3D11.3 functional spec, 3.2.3.6: conversions to integers do not decrease). Values are anywhere
+/// between their bounds; equal ones count once. Which way each conversion of a sum went is known where all went one
+/// way, or where the thresholds that other sums show leave one outcome; a sum that these exclude counts as one. What is
+/// converted may be what each draw adds, or the sum that the target becomes: returns the lesser number of both.
 double crossed_stores(std::span<const NearThreshold> stores);
 
 }  // namespace trueshade::oracle

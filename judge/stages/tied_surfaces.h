@@ -13,25 +13,26 @@
 
 namespace trueshade::oracle {
 
-/// A surface that may share the visible one's depth.
+/// A surface that may have the same depth as the visible one.
 struct TiedSurface {
   ShadedSurface surface;  ///< what its fragment's attributes may be
-  bool certain = false;   ///< covers the sample, with the very depth that the visible surface or the clear value left
+  bool certain = false;   ///< it covers the sample, and its depth is exactly the one in the buffer
   bool before = false;    ///< submitted before the visible one
-  float chance = 0.5f;    ///< of what is not certain, that it ties; 1: all such may, as where an offset ends at a limit
+  float chance = 0.5f;    ///< probability that an uncertain one ties; 1: all such may, as where an offset ends at a
+                          ///< limit
 };
 
-/// The tied surfaces of every pixel, in order of submission; y from the top. Where nothing is visible: what may have
-/// the clear depth. The visible surface is the possible one of the capture's id.object (and id.primitive, where
-/// captured) whose normal and depth are nearest to those stored. Triangles that share an edge are counted apart,
-/// although only one can have the sample.
+/// Finds the surfaces that may have the visible one's depth at each pixel, in order of submission; y from the top.
+/// Where nothing is visible, those that may have the clear depth. The visible surface is the one that the capture's
+/// id.object (and id.primitive, where captured) names; of several, the one whose normal and depth are nearest to those
+/// stored. Triangles that share an edge are counted apart, although only one can have the sample.
 class TiedSurfaces {
  public:
-  /// Finds them, with every core. Pixels of other rows than `rows` have none.
+  /// Finds the surfaces of all pixels, with every core. Pixels of other rows than `rows` have none.
   TiedSurfaces(const Scene& scene, const Pipeline& pipeline, const Profile& profile, const Capture& capture,
                const JudgedRows& rows = {});
 
-  /// The tied surfaces of a pixel.
+  /// The surfaces that may have the visible one's depth at the pixel.
   std::span<const TiedSurface> at(int x, int y) const {
     const size_t pixel = size_t(y) * size_t(width_) + size_t(x);
     return {list_.data() + first_[pixel], first_[pixel + 1] - first_[pixel]};

@@ -16,7 +16,7 @@
 
 namespace trueshade::oracle {
 
-/// One transparent fragment of a pixel, as the blend sees it.
+/// One fragment of a transparent surface at a pixel, as the blend takes it.
 struct TransparentLayer {
   uint32_t instance = 0, triangle = 0;
   std::array<Range, 4> nominal, other;  ///< RGBA before any clamp of the target; `other` where either_way
@@ -29,13 +29,13 @@ struct TransparentLayer {
   float chance_other = 0;
 };
 
-/// The layers of one pixel, in order of submission, and their patches.
+/// The transparent fragments of one pixel, in order of submission, and their closed patches.
 struct TransparentPixel {
   std::vector<TransparentLayer> layers;
   std::vector<int> turns;  ///< of each patch: the sum of the senses of its triangles that have the sample (patch.h)
 };
 
-/// What the blends may leave: one way of drawing the layers.
+/// What a pixel holds after one way of drawing its layers.
 struct LayeredTexel {
   PixelClass pixel_class = PixelClass::exact;
   Texel texel;
@@ -44,24 +44,24 @@ struct LayeredTexel {
   bool undefined = false;
 };
 
-/// What a pixel may hold: by the nominal draws, and by any; and why the two may differ.
+/// What a pixel may hold: by the nominal draws, and by any draws that are allowed.
 struct CarriedTexel {
   Texel nominal, all;
-  bool split = false, open = false;  ///< open: a fragment may have left anything
+  bool split = false, open = false;  ///< whether the two may differ; whether a fragment may leave anything
   PixelClass doubt = PixelClass::branch;
 };
 
-/// What glass of one material makes of a pixel in real arithmetic, and what one unit of alpha makes of that.
+/// What layers of one material make of a pixel in real arithmetic, and how much one unit of alpha more would change it.
 struct GlassChange {
   uint32_t material = 0;
   std::array<double, 4> value{}, by_alpha{};
   int blends = 0;
 };
 
-/// The transparent fragments of all pixels. A fragment is tested against the depth that the opaque surfaces left: the
-/// capture's own where it has that plane, else that of any opaque surface that may be seen there. LESS and LEQUAL
-/// (GREATER and GEQUAL alike): sure to pass where all of its depths are in front of that one, may pass where some are;
-/// ALWAYS passes; EQUAL and NOTEQUAL may go either way where it may have that very depth.
+/// Finds the transparent fragments of all pixels. They are tested against the depth that the opaque surfaces left: the
+/// capture's own where it has the plane depth, else that of any opaque surface that may be seen there. LESS and LEQUAL
+/// (GREATER and GEQUAL alike): a fragment surely passes where all depths it may have are in front of that depth, and
+/// may pass where some are. ALWAYS passes. EQUAL and NOTEQUAL may go either way.
 class TransparentLayers {
  public:
   /// Finds the fragments that may be seen, with every core. Pixels of other rows than `rows` have none.
@@ -69,28 +69,29 @@ class TransparentLayers {
                     const JudgedRows& rows = {});
   ~TransparentLayers();
 
-  /// Whether any fragment may be at the pixel; y from the top.
+  /// Whether any transparent fragment may be at the pixel; y from the top.
   bool any(int x, int y) const;
 
-  /// The fragments of instances [first, end) that may be seen at a pixel, shaded, y from the top. into-albedo: sources
-  /// are albedos; after-lights: lit colours.
+  /// The fragments of instances [first, end) that may be seen at a pixel, with their colours; y from the top. The
+  /// colours are albedos under into-albedo, and lit colours under after-lights.
   TransparentPixel at(int x, int y, uint32_t first, uint32_t end) const;
-  /// The fragments of all instances.
+  /// The fragments of all instances at the pixel.
   TransparentPixel at(int x, int y) const { return at(x, y, 0, ~uint32_t(0)); }
 
-  /// Every way to draw the layers onto a texel, the nominal one first. Triangles of a patch are in a way that its sum
-  /// of turns allows. More than six layers in doubt: the nominal way, and the hull of all.
+  /// What the pixel holds after each way of drawing the layers onto `from`, the nominal way first. Triangles of a
+  /// closed patch are drawn as the patch's sum of turns allows. With more than six layers in doubt: the nominal way,
+  /// and one that holds all others.
   std::vector<LayeredTexel> ways(const TransparentPixel& pixel, const Texel& from) const;
 
-  /// What layers of one material without maps that are drawn for sure make of a pixel; nothing of other layers.
-  ///   from: what the pixel holds before them, values
+  /// What the layers make of a pixel, where all are surely drawn, of one material and without maps; nothing otherwise.
+  ///   from: what the pixel holds before them, as values, not codes
   std::optional<GlassChange> change(const TransparentPixel& pixel, const std::array<double, 4>& from) const;
 
-  /// Draws the layers onto what a pixel may hold, all ways at once: sets `at` to what it may hold then, and why its two
-  /// sets may differ.
+  /// Draws the layers, in all ways at once, onto what a pixel may hold: updates `at`, with the reason why its two sets
+  /// may differ.
   void carry(const TransparentPixel& pixel, CarriedTexel& at) const;
 
-  /// The format of what is blended into.
+  /// The format of the target or plane that the layers are blended into.
   Format format() const { return format_; }
 
  private:
@@ -111,7 +112,7 @@ class TransparentLayers {
   std::optional<ProgramBounds> lights_;  ///< after_lights
 };
 
-/// A copy of the scene with its transparent surfaces gone, but not their places among the instances.
+/// A copy of the scene in which transparent instances are empty; the other instances keep their indices.
 Scene without_transparent(const Scene& scene);
 
 }  // namespace trueshade::oracle

@@ -12,18 +12,18 @@
 
 namespace trueshade::oracle {
 
-/// How a capture is judged.
+/// How validate_capture() judges a capture.
 struct ValidateOptions {
   Profile profile;             ///< what is promised; by default what OpenGL promises with 4 subpixel bits
   bool infer = false;          ///< also find the tightest profile: judgements of some rows, and one or two more of all
   LightSteps steps{};          ///< of strategies that draw light by light: to judge each light by itself
   LightSteps objects{};        ///< of surfaces transparent after the lights: to judge each by itself
-  double significance = 1e-6;  ///< of the tests of the whole image: how many legal images may fail them
+  double significance = 1e-6;  ///< how often the tests of the whole image may fail a legal image
   std::function<void(const char* part)> begins{};  ///< called before each part, such as `the surfaces`
   bool surfaces = true;  ///< false: the G-buffer is taken as it is, and only what lights make of it is judged
 };
 
-/// Everything there is to say about a capture.
+/// The result of validate_capture().
 struct Verdict {
   std::string scene, driver;
   std::string profile;
@@ -34,20 +34,22 @@ struct Verdict {
   std::optional<Inference> inferred;
 
   uint64_t violations() const;                      ///< over all stages; the command's exit code is 1 where it is not 0
-  double least_chance(size_t stages_judged) const;  ///< of one test, so that all of them pass by the significance
+  double least_chance(size_t stages_judged) const;  ///< the chance below which one test fails, so that all together
+                                                    ///< fail as rarely as `significance` says
   bool rounds_unlike_any() const;  ///< some stage's stores or surfaces are not what any known rounding makes
   bool convicted() const;          ///< legal pixel by pixel, yet no implementation that is known makes such an image
   bool suspicious() const;         ///< convicted, or stores follow another known rule than the one that is stated
-  /// The strongest evidence in one line: what was seen, what is expected at most, how likely that is.
+  /// The strongest evidence against the capture in one line: what was counted, what is expected at most, and how likely
+  /// that is. Empty where there is none.
   std::string evidence_line() const;
 
  private:
   std::string material_line() const;
 };
 
-/// Judges every stage the capture has planes for: the target by its last state, as `lighting`; or, with steps, light by
-/// light, as `blending`, and by its last state only where drawing it again with a look at each light made another one.
-/// Throws Error(bad_input) where there is none, or a size is wrong.
+/// Judges every stage that the capture has planes for. The target is judged by its final state (`lighting`) or, where
+/// `steps` are given, light by light (`blending`); then by its final state too only if drawing it light by light gave
+/// another image. Error(bad_input) where the capture has no plane to judge, or one of another size than the pipeline's.
 Verdict validate_capture(const Scene& scene, const Pipeline& pipeline, const Capture& capture,
                          const ValidateOptions& options = {});
 

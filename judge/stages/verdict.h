@@ -13,7 +13,7 @@
 
 namespace trueshade::oracle {
 
-/// A pixel worth looking at: what was legal, and what was given. Violations first, farthest outside first.
+/// A pixel worth looking at: what it may hold, and what it holds. Violations come first, the farthest outside first.
 struct WorstPixel {
   int x = 0, y = 0;
   PixelClass pixel_class = PixelClass::violation;
@@ -23,8 +23,8 @@ struct WorstPixel {
   std::string note;   ///< the surface meant: `instance 3, triangle 17`, or `nothing drawn`
 };
 
-/// A channel whose rounding could go either way by the likely rule, or went a way that the rule rules out: kept for the
-/// tests of the whole image.
+/// A rounding of one channel that could go either way by the likely rule, or went a way that the rule excludes. Kept
+/// for the tests of the whole image.
 struct StoreChoice {
   uint32_t pixel;  ///< y * width + x, y from the top
   float value;     ///< the real value before the store: equal values are one choice, however many pixels have them
@@ -33,9 +33,9 @@ struct StoreChoice {
   int8_t taken;    ///< 0: the nominal one; -1, 1: one below, above
 };
 
-/// A value that is converted to codes and lies so near the threshold between two of them that the likely rule lets
-/// either come out. Kept where that rule reaches beyond half a code. What was stored may be the sum of several such
-/// conversions, which stand in a row, in the order in which they were added.
+/// A value whose conversion to codes may, by the likely rule, give either of two codes. Kept where that rule may round
+/// to a code more than half a code away. What was stored may be the sum of several such conversions, which stand one
+/// behind another, in the order in which they were added.
 struct NearThreshold {
   float low = 0, high = 0;        ///< bounds of the value, in codes from the middle between the two
   uint16_t threshold = 0;         ///< the lower of the two codes
@@ -46,20 +46,20 @@ struct NearThreshold {
   bool nominal_above = false;  ///< the upper code is the nominal one
 };
 
-/// A pixel with more than one legal surface or branch. A pixel may have several.
+/// A surface, or a branch of the shader, that a pixel may show in place of the nominal one. A pixel may have several.
 struct SurfaceChoice {
-  uint64_t surface;  ///< instance and triangle nominally seen: pixels of one triangle move together
+  uint64_t surface;  ///< instance and triangle nominally seen: pixels of one triangle are one choice
   uint32_t pixel;    ///< y * width + x, y from the top
   float chance;      ///< predicted that another is shown
 };
 
-/// A pixel that shows its nominal surface, whose material has maps.
+/// A pixel that shows the nominal surface, one whose material has maps.
 struct TexturedPixel {
   uint32_t pixel;  ///< y * width + x, y from the top
   PossibleSurface surface;
 };
 
-/// What glass may do to a plane otherwise, each as one number for the whole picture.
+/// What a renderer may do otherwise where it blends glass, each as one number for the whole picture.
 enum class GlassCause : uint8_t {
   alpha,  ///< of the source
   step_r,
@@ -68,13 +68,13 @@ enum class GlassCause : uint8_t {
 };
 inline constexpr size_t kGlassCauses = 4;
 
-/// A channel of a pixel under transparent surfaces of one material.
+/// How far a channel of a pixel is from nominal, under transparent surfaces of one material.
 struct GlassDeviation {
   uint32_t material;
   Deviation deviation;  ///< by GlassCause
 };
 
-/// What was found of one stage.
+/// What was found of one stage of the judgement, such as the lighting.
 struct StageVerdict {
   std::string stage, profile;
   int width = 0, height = 0;
@@ -100,20 +100,20 @@ struct StageVerdict {
                               ///< each by itself; 0 where nothing is lit, 1 where it may be off by more
   std::vector<float> excess;  ///< WorstPixel::excess of each pixel, 0 of legal ones; empty: there is no violation
 
-  /// How many pixels were judged.
+  /// How many pixels were judged, not left out.
   uint64_t judged() const { return classes.size() - left_out; }
-  /// How many pixels have a class.
+  /// How many pixels have this class.
   uint64_t count(PixelClass c) const { return counts[size_t(c)]; }
   /// Whether no pixel is a violation.
   bool passes() const { return count(PixelClass::violation) == 0; }
-  /// How many pixels show another legal surface or branch.
+  /// How many pixels show another surface, or another branch of the shader, than the nominal one, legally.
   uint64_t explained() const {
     return count(PixelClass::edge) + count(PixelClass::depth_tie) + count(PixelClass::clip) + count(PixelClass::branch);
   }
 };
 
-/// The worst window of each of kWindowSides, where one has a pixel in no legal set (LocalWindow::found) or one that
-/// shows another surface or branch (others). A pixel's error is WorstPixel::excess.
+/// For each of kWindowSides, the square window with the most errors: violations (LocalWindow::found) or pixels that
+/// show another surface or branch (others). Sizes without any are left out. A pixel's error is WorstPixel::excess.
 std::vector<LocalWindow> worst_windows(const StageVerdict& verdict);
 
 }  // namespace trueshade::oracle
