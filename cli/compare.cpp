@@ -80,6 +80,7 @@ FolderComparison as_row(const CompareOptions& options, const ComparedPictures& p
               : pictures.comparison.outcome == compare::Outcome::mismatched ? RowState::mismatched
                                                                             : RowState::different;
   row.reason = verdict_line(pictures);
+  row.left_out_pixels = pictures.comparison.differences.left_out;
   if (row.state != RowState::same) row.details = comparison_text(pictures);
   row.is_accepted = pictures.is_accepted;
   return {options.reference, options.test, {row}, {}, {}};

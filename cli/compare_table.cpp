@@ -71,7 +71,7 @@ compare::Criterion window_from_text(const std::string& text) {
     throw usage("--window",
                 "'" + text + "' is not SIDE:SHARE, a side of 8, 16, 32, 64 or 128 pixels and a share from 0 to 1",
                 "give one, like 16:0.05");
-  return {compare::Measure::window_share, share, 0.0, int(side)};
+  return {compare::Measure::window_share, share, 0.0, int(side), text.substr(colon + 1), {}};
 }
 
 /// `RGB` is R, G and B; with commas, and where there is a dot, they are names.
@@ -125,7 +125,8 @@ void add_criteria(CommandTable& table, CompareOptions& options) {
   const auto add = [&](const char* name, const char* value_name, Measure measure, const auto& read, std::string help) {
     OptionRow row{.names = name, .value_name = value_name, .help = std::move(help)};
     row.take = [&options, name, measure, read](const std::vector<std::string>& given) {
-      options.rules.criteria.push_back({measure, read(name, given.back())});
+      options.rules.criteria.push_back(
+          {.measure = measure, .bound = read(name, given.back()), .bound_text = given.back()});
     };
     table.add(std::move(row));
   };
@@ -136,7 +137,7 @@ void add_criteria(CommandTable& table, CompareOptions& options) {
       "No value differs by more steps of its storage, of two the coarser: floats, halves, codes");
   add("--pixels", "COUNT", Measure::pixels_beyond, count_from_text,
       "At most so many pixels differ by more than --delta");
-  const auto read_delta = [](const std::string& text) { return bound_from_text("--delta", text); };
+  const auto read_delta = [](const std::string& text) { return GivenNumber{bound_from_text("--delta", text), text}; };
   add_read(table, "--delta", "D", options.delta, read_delta, "What --pixels and --window let pass; without it 0");
   OptionRow windows{
       .names = "--window",
@@ -170,7 +171,10 @@ void settle_criteria(CompareOptions& options) {
                    [](const auto& a, const auto& b) { return a.measure < b.measure; });
   bool any_delta = false;
   for (compare::Criterion& criterion : criteria)
-    if (compare::has_delta(criterion.measure)) criterion.delta = options.delta.value_or(0.0), any_delta = true;
+    if (compare::has_delta(criterion.measure)) {
+      const GivenNumber delta = options.delta.value_or(GivenNumber());
+      criterion.delta = delta.value, criterion.delta_text = delta.text, any_delta = true;
+    }
   if (options.delta && !any_delta)
     throw usage("--delta", "it is what --pixels and --window let pass",
                 "add --pixels COUNT, or give --max-difference instead");

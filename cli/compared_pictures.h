@@ -57,7 +57,7 @@ std::string steps_text(double steps);
 std::string mask_line(const ComparedPictures& pictures);
 
 /// `16x16 at 32,48: 12 of 256 pixels differ by more than 0.1, mean error 0.01, largest 0.5`.
-std::string window_line(const compare::WorstWindow& window, double delta);
+std::string window_line(const compare::WorstWindow& window, const compare::Comparison& comparison);
 
 /// `PNG, 640x480, R G B unorm 8`.
 std::string about_picture(const PictureFile& picture);

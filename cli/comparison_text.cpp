@@ -202,12 +202,16 @@ std::string mask_line(const ComparedPictures& pictures) {
          " left out, " + number_of(all > 0 ? 100.0 * double(d.left_out) / double(all) : 0.0, "%.3g") + " %";
 }
 
-std::string window_line(const compare::WorstWindow& worst, double delta) {
+std::string window_line(const compare::WorstWindow& worst, const Comparison& comparison) {
   const LocalWindow& w = worst.window;
+  const double delta = comparison.differences.delta;
+  std::string delta_text = number_of(delta);
+  for (const compare::Judged& row : comparison.criteria)
+    if (!row.criterion.delta_text.empty()) delta_text = row.criterion.delta_text;
   return std::to_string(w.side) + 'x' + std::to_string(w.side) + " at " + std::to_string(w.x) + ',' +
          std::to_string(w.y) + ": " + std::to_string(w.found) + " of " + count_of(w.seen, "pixel", "pixels") +
-         (w.found == 1 ? " differs" : " differ") + (delta > 0 ? " by more than " + number_of(delta) : "") +
-         ", mean error " + number_of(w.mean(), "%.4g") + ", largest " + number_of(w.largest, "%.4g");
+         (w.found == 1 ? " differs" : " differ") + (delta > 0 ? " by more than " + delta_text : "") + ", mean error " +
+         number_of(w.mean(), "%.4g") + ", largest " + number_of(w.largest, "%.4g");
 }
 
 bool passes(const ComparedPictures& pictures) {
@@ -249,8 +253,7 @@ std::string comparison_text(const ComparedPictures& pictures) {
       text += line_of("criterion", compare::text_of(row) + (row.holds ? ": holds" : ": DOES NOT HOLD"));
   if (c.flip) text += line_of("FLIP", flip_line(*c.flip));
   if (!c.no_flip.empty()) text += line_of("FLIP", "not measured: " + c.no_flip);
-  for (const compare::WorstWindow& w : c.differences.windows)
-    text += line_of("window", window_line(w, c.differences.delta));
+  for (const compare::WorstWindow& w : c.differences.windows) text += line_of("window", window_line(w, c));
   if (c.differences.channels.empty() || c.outcome == Outcome::same) return text;
   text += '\n' + channel_table(c.differences.channels);
   for (const std::string& pixel : {pixel_text("first pixel", c.first), pixel_text("worst pixel", c.worst),

@@ -282,7 +282,10 @@ CommandTable explain_table(ExplainOptions& options) {
   add_lenient(table, options.limits);
   add_trust(table, options.limits);
   add_limits(table, options.limits);
-  table.details = "The last line is the stored pixel, as render stores it.";
+  table.details =
+      "Lights, objects and triangles are counted from 0, in the scene's order, in which info --resolved lists them. "
+      "The "
+      "last line is the stored pixel, as render stores it.";
   table.examples = {{"trueshade explain scene.json --pixel 160,120", "Everything behind one pixel's value."}};
   table.see_also = {"render", "validate"};
   table.finished = [&options]() -> Command { return finished(std::move(options)); };

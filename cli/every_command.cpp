@@ -3,6 +3,8 @@
 
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "cli/stale_pages.h"
+#include "core/error.h"
 #include "judge/diagnosis/finding.h"
 
 namespace trueshade {
@@ -13,7 +15,9 @@ std::vector<std::string> fault_names() {
   return names;
 }
 
-int execute(const Command& command) {
+namespace {
+
+int carry_out(const Command& command) {
   constexpr int kViolation = 1;
   if (const auto* options = std::get_if<RenderOptions>(&command)) render(*options);
   if (const auto* options = std::get_if<InfoOptions>(&command)) print_info(*options);
@@ -33,6 +37,18 @@ int execute(const Command& command) {
   if (const auto* options = std::get_if<CompletionOptions>(&command)) print_completion(*options);
   if (const auto* options = std::get_if<PrintText>(&command)) print(options->text);
   return 0;
+}
+
+}  // namespace
+
+int execute(const Command& command) {
+  const timespec start = time_of_files();
+  try {
+    return carry_out(command);
+  } catch (const Error& error) {
+    replace_stale_pages(command, error.what(), start);
+    throw;
+  }
 }
 
 }  // namespace trueshade

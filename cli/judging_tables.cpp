@@ -65,6 +65,7 @@ CommandTable validate_table(ValidationOptions& options) {
   add_trust(table, options.limits);
   add_limits(table, options.limits);
   table.details =
+      "Lights and objects are counted from 0, in the scene's order, in which info --resolved lists them.\n"
       "Exit codes: 0 every pixel is explained, 1 a pixel is in no legal set or no rounding that is known makes such an "
       "image, 7 there is no OpenGL driver; others as for trueshade.";
   table.examples = {

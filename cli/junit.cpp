@@ -35,7 +35,9 @@ std::string attributes_of(std::span<const JUnitCase> cases) {
 std::string testcase(const std::string& checked, const JUnitCase& one) {
   const std::string xml = "    <testcase" + attribute("classname", checked) + attribute("name", one.name) +
                           attribute("time", seconds_text(one.seconds));
-  if (one.outcome == JUnitOutcome::passed) return xml + "/>\n";
+  const bool passed = one.outcome == JUnitOutcome::passed;
+  if (passed && one.body.empty()) return xml + "/>\n";
+  if (passed) return xml + ">\n      <system-out>" + xml_text(one.body) + "</system-out>\n    </testcase>\n";
   const std::string element(kOutcomeNames[size_t(one.outcome)]);
   const std::string opened = xml + ">\n      <" + element +
                              (one.type.empty() ? std::string() : attribute("type", one.type)) +
@@ -81,6 +83,7 @@ std::vector<JUnitCase> junit_cases(const FolderComparison& folders) {
                                                                      : JUnitOutcome::failure;
     std::string body = row.details.empty() ? row.reason : row.details;
     if (!row.not_accepted.empty()) body += "; not accepted: " + row.not_accepted;
+    if (passes(row)) body = row.left_out_pixels == 0 ? std::string() : row.reason;
     cases.push_back({row.name, row.seconds, outcome, std::string(name_of(row.state)), row.reason, std::move(body)});
   }
   return cases;

@@ -16,7 +16,8 @@ struct JUnitCase {
   std::string name;
   double seconds = 0.0;
   JUnitOutcome outcome = JUnitOutcome::passed;
-  std::string type, message, body;  ///< of what has not passed: its kind in a word, the reason in a line, and all of it
+  std::string type, message;  ///< of what has not passed: its kind in a word, and the reason in a line
+  std::string body;           ///< all that is to be said; of what has passed too, if there is something
 };
 
 /// The report of a command, `trueshade compare` say, in JUnit's XML. Characters that XML does not allow are shown as

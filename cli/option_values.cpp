@@ -214,7 +214,7 @@ Strategy strategy_from_text(const std::string& option, const std::string& text) 
   return Strategy(name - std::begin(kStrategyNames));
 }
 
-std::string plane_names() { return joined(aov_names()) + " light.<i>"; }
+std::string plane_names() { return joined(aov_names()) + " light.<i> (i counts lights from 0)"; }
 
 std::vector<std::string> aovs_from_text(const std::string& option, const std::string& list) {
   std::vector<std::string> names;

@@ -20,6 +20,12 @@ struct Size {
   int width, height;  ///< pixels
 };
 
+/// A number, and how it was written, like 2/255.
+struct GivenNumber {
+  double value = 0.0;
+  std::string text{};
+};
+
 /// Frames of a timeline, first to last; frame n is at n / fps.
 struct FrameRange {
   int first, last;
@@ -198,7 +204,7 @@ struct CompareOptions : LimitedOptions {
   compare::MaskRules mask;
   std::vector<std::string> channels;  ///< names; empty: all
   bool bottom_up = false;             ///< the test's first row is its lowest
-  std::optional<double> delta;        ///< of the criteria that have one
+  std::optional<GivenNumber> delta;   ///< of the criteria that have one
   std::vector<std::string> of_flip;   ///< the options of FLIP that were given
   bool no_judge = false;              ///< values are compared, although the reference carries its scene
   std::vector<std::string> outputs;   ///< .png, .exr or .html; of folders .html and one folder

@@ -9,6 +9,7 @@
 #include "cli/preparation.h"
 #include "core/fp_env.h"
 #include "core/image_rows.h"
+#include "core/srgb.h"
 #include "shading/output/view_image.h"
 
 namespace trueshade {
@@ -117,18 +118,38 @@ size_t clamped_pixels(const Image& picture) {
   return clamped;
 }
 
-/// How much of a picture stands at the largest value that its format holds, or that a PNG of it does.
-std::string clamp_note(const Pipeline& pipeline, const Image& picture, bool to_png, bool exposed) {
+/// Whether pixels without a surface stand at the largest value, as on a white background.
+bool is_clear_clamped(const Scene& scene, const Pipeline& pipeline, const FormatInfo& layout) {
+  const float brightest = std::max({scene.clear.r, scene.clear.g, scene.clear.b});
+  if (layout.number_class == NumberClass::floating) return brightest > 1.0f;
+  if (layout.srgb || pipeline.post.encode != PostChain::Encode::linear) return brightest >= float(kSrgbCodeStarts[254]);
+  return brightest >= 1.0f - 0.5f / float(layout.largest_code(0));
+}
+
+/// How many pixels of a picture have a surface; of averaged samples, their share. All where that is not known, as of
+/// glass alone.
+size_t pixels_with_surface(const FrameStats& stats, size_t pixels) {
+  if (stats.covered_pixels == 0 || stats.pixels == 0) return pixels;
+  return size_t(std::llround(double(pixels) * double(stats.covered_pixels) / double(stats.pixels)));
+}
+
+/// How much of what is drawn stands at the largest value that a picture's format holds, or that a PNG of it does.
+std::string clamp_note(const Scene& scene, const Pipeline& pipeline, const Frame& frame, bool to_png, bool exposed) {
   constexpr size_t kLeastPercent = 5;
+  const Image& picture = frame.color;
   const FormatInfo layout = info(picture.format);
   const bool floats = layout.number_class == NumberClass::floating;
   if (pipeline.view != ImageView::lit || pipeline.post.tone_map != PostChain::ToneMap::none || (floats && !to_png))
     return {};
   if (!floats && layout.number_class != NumberClass::unorm) return {};
-  const size_t clamped = floats ? pixels_above_1(picture) : clamped_pixels(picture);
-  const size_t pixels = size_t(picture.width) * size_t(picture.height);
-  if (100 * clamped < kLeastPercent * pixels) return {};
-  const std::string share = std::to_string(clamped) + " of " + std::to_string(pixels) + " pixels have a channel ";
+  const size_t pixels = size_t(picture.width) * size_t(picture.height),
+               drawn = pixels_with_surface(frame.stats, pixels);
+  const size_t empty = is_clear_clamped(scene, pipeline, layout) ? pixels - drawn : 0;
+  const size_t all_clamped = floats ? pixels_above_1(picture) : clamped_pixels(picture);
+  const size_t clamped = std::min(all_clamped - std::min(all_clamped, empty), drawn);
+  if (100 * clamped < kLeastPercent * drawn || clamped == 0) return {};
+  const std::string share =
+      std::to_string(clamped) + " of " + std::to_string(drawn) + " pixels with a surface have a channel ";
   const std::string bring = exposed ? ")" : ", and --exposure auto brings it into range)";
   if (floats)
     return share + "above 1, the largest value of a PNG: Brighter light is cut off there (an EXR keeps it" + bring;
@@ -226,7 +247,7 @@ std::vector<std::string> picture_notes(const Scene& scene, const Pipeline& pipel
                                        bool exposed) {
   std::vector<std::string> notes;
   for (std::string note :
-       {black_note(scene, pipeline, frame), clamp_note(pipeline, frame.color, to_png, exposed),
+       {black_note(scene, pipeline, frame), clamp_note(scene, pipeline, frame, to_png, exposed),
         nan_note(pipeline, frame.color), hidden_note(pipeline, frame.color), nearly_empty_note(scene, frame.stats),
         stretched_note(scene, pipeline), dim_note(pipeline, frame, exposed)})
     if (!note.empty()) notes.push_back(std::move(note));

@@ -1,5 +1,6 @@
 #include "compare/criteria.h"
 
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 
@@ -11,6 +12,22 @@ std::string number_text(double value) {
   const bool is_count = value == std::floor(value) && std::fabs(value) < 1e15;
   std::snprintf(text, sizeof text, is_count ? "%.0f" : "%.6g", value);
   return text;
+}
+
+std::string given_text(const std::string& given, double value) { return given.empty() ? number_text(value) : given; }
+
+/// `2/255` where the bound was given as a fraction of 255, and 255 times the value is whole, from 1 on, but for what
+/// floats round.
+std::string measured_text(const Judged& row) {
+  constexpr double kWhole = 1e-5;
+  const std::string& given = row.criterion.bound_text;
+  const size_t slash = given.find('/');
+  if (slash == std::string::npos) return number_text(row.measured);
+  double below = 0.0;
+  std::from_chars(given.data() + slash + 1, given.data() + given.size(), below);
+  const double above = row.measured * below, whole = std::round(above);
+  if (whole == 0.0 || !(std::fabs(above - whole) <= kWhole)) return number_text(row.measured);
+  return number_text(whole) + given.substr(slash);
 }
 
 }  // namespace
@@ -43,7 +60,8 @@ std::string_view name_of(Measure measure) {
 }
 
 std::string text_of(const Judged& row) {
-  const std::string measured = number_text(row.measured), bound = number_text(row.criterion.bound);
+  const std::string measured = measured_text(row), bound = given_text(row.criterion.bound_text, row.criterion.bound),
+                    delta = given_text(row.criterion.delta_text, row.criterion.delta);
   switch (row.criterion.measure) {
     case Measure::unequal_pixels:
       return "unequal pixels " + measured + " (at most " + bound + ")";
@@ -52,12 +70,11 @@ std::string text_of(const Judged& row) {
     case Measure::largest_ulp:
       return "largest difference in ULP " + measured + " (at most " + bound + ")";
     case Measure::pixels_beyond:
-      return "pixels that differ by more than " + number_text(row.criterion.delta) + ": " + measured + " (at most " +
-             bound + ")";
+      return "pixels that differ by more than " + delta + ": " + measured + " (at most " + bound + ")";
     case Measure::window_share: {
       const std::string side = std::to_string(row.criterion.side);
-      return "share of pixels that differ by more than " + number_text(row.criterion.delta) + " in a window of " +
-             side + "x" + side + ": " + measured + " (at most " + bound + ")";
+      return "share of pixels that differ by more than " + delta + " in a window of " + side + "x" + side + ": " +
+             measured + " (at most " + bound + ")";
     }
     case Measure::psnr:
       return "least PSNR " + measured + " dB (at least " + bound + ")";

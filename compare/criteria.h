@@ -21,9 +21,10 @@ enum class Measure : uint8_t {
 /// A row: what must hold, or the pictures differ.
 struct Criterion {
   Measure measure = Measure::unequal_pixels;
-  double bound = 0.0;  ///< at most; of psnr at least
-  double delta = 0.0;  ///< of pixels_beyond and window_share
-  int side = 0;        ///< of window_share
+  double bound = 0.0;                      ///< at most; of psnr at least
+  double delta = 0.0;                      ///< of pixels_beyond and window_share
+  int side = 0;                            ///< of window_share
+  std::string bound_text{}, delta_text{};  ///< as they were given, like 2/255; empty: as decimals
 };
 
 /// A criterion and what was measured.
@@ -42,7 +43,8 @@ constexpr bool has_delta(Measure measure) {
   return measure == Measure::pixels_beyond || measure == Measure::window_share;
 }
 
-/// `largest_difference`, ... as JSON has it, and as people read it: `largest difference 0.0157 (at most 0.02)`.
+/// `largest_difference`, ... as JSON has it, and as people read it: `largest difference 0.0157 (at most 0.02)`. Where
+/// the bound was given as a fraction, and what was measured is one of the same denominator, it is shown as one.
 std::string_view name_of(Measure measure);
 std::string text_of(const Judged& row);
 

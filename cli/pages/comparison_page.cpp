@@ -201,7 +201,7 @@ std::string windows_part(const Comparison& c) {
       "<h2>Worst windows</h2>\n<p class=quiet>Where pixels that differ lie closest together, of each size of window; a "
       "pixel's error is its largest difference.</p>\n<ul>\n";
   for (const compare::WorstWindow& w : c.differences.windows)
-    html += "<li>" + escaped(window_line(w, c.differences.delta)) + '\n';
+    html += "<li>" + escaped(window_line(w, c)) + '\n';
   return html + "</ul>\n";
 }
 

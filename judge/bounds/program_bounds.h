@@ -59,8 +59,9 @@ class ProgramBounds {
   /// Whether the program is the pipeline's own light program. False where it stands for a light model.
   bool is_users() const { return is_users_; }
 
-  /// What the sum starts from plus the terms of these lights, before finish(); `undefined` where this may be NaN. An
-  /// unlit surface gives 0, as finished() ignores its sum.
+  /// What the sum starts from plus the terms of these lights, before finish(), and how many of the lights are counted.
+  /// Lights end at their extents, where they have one. `undefined` where the start or a term may be NaN or beyond all
+  /// floats. An unlit surface gives 0, as finished() ignores its sum.
   LitRange at(const ShadedSurface& surface, std::span<const uint32_t> lights, Registers& registers) const;
 
   /// The term of one light, without what the sum starts from; 0 for an unlit surface.

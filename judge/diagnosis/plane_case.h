@@ -41,7 +41,8 @@ class PlaneCase {
   const PlaneView& view(Plane plane) const { return views_[size_t(plane)]; }
   /// How many planes were captured and are compared.
   int planes() const;
-  /// What a plane's channel should hold at the pixel under the supposed faults: a code, rounded, or a float.
+  /// What a captured plane's channel should hold at the pixel under the supposed faults: of fixed point the nearest
+  /// code, of other planes the number, which is not rounded to the plane's format.
   double predicted(const PlaneSupposition& supposed, Plane plane, int x, int y, int channel) const;
   /// What a right renderer's planes hold at the pixel.
   ExpectedPixel expected(int x, int y) const { return right_->at(x, y); }

@@ -49,6 +49,7 @@ struct ProgramEdit {
 /// The mistakes worth trying: changes of the steps that light() depends on and that have a line in the user's source,
 /// of the parameters, and of the albedo. In this order: an operation left out or confused, parameters, constants,
 /// squares and roots, albedo's encoding, factors of one term, further factors, a number as a factor, other operands.
+/// Numbers are left to be fitted. Programs of more than 300 steps have no further factors and other operands.
 std::vector<ProgramEdit> program_edits(const programs::Program& program);
 
 /// A copy of the program with one of the changes of program_edits() made.

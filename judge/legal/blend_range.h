@@ -27,9 +27,10 @@ LegalTexel known_texel(double stored);
 Texel blended_texel(const BlendState& state, Format format, const Profile& profile, const std::array<Range, 4>& source,
                     const Texel& stored);
 
-/// What the pixel may hold by the nominal rule: blending in float32, rounded once to the likelier neighbour. Its
-/// second_chance bounds how often a driver of that rule stores the other neighbour. A profile that states how it blends
-/// is followed instead. For the statistical tests of the whole image.
+/// What the pixel may hold where the driver blends as `likely` says: in float32, rounded once to the likelier
+/// neighbour, codes added under ONE, ONE; or in products of codes, as llvmpipe. Its second_chance bounds how often such
+/// a driver stores the other neighbour. A profile that states its BlendRule, any_precision apart, is followed instead,
+/// and `likely` is not read. For the statistical tests of the whole image.
 ///   likely: following(profile.likely, profile)
 Texel likely_texel(const BlendState& state, Format format, const Profile& profile, const Profile& likely,
                    const std::array<Range, 4>& source, const Texel& stored);

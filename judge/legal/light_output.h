@@ -8,7 +8,8 @@
 
 namespace trueshade::oracle {
 
-/// The colours that the fragment shader may output in one draw.
+/// The colours that the fragment shader may output in one draw: a range a channel, and a second one where a comparison
+/// in the shader may go either way.
 struct LightOutput {
   std::array<Range, 4> nominal, other;  ///< RGBA before any clamp of the target; `other` where either_way
   bool either_way = false;              ///< a comparison of the shader may go to `other`

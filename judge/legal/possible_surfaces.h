@@ -44,10 +44,10 @@ double clear_key(const GeometryState& state);
 ///   threads: 0: one a core
 PossibleSurfaces possible_surfaces(const Projector& projector, const JudgedRows& rows = {}, int threads = 0);
 
-/// Finds the fragments, seen or not, whose depth may equal the depth that opaque surfaces leave at a pixel. These are
-/// the possible surfaces, and those that fail the test against a clear depth which they may have themselves. Under
-/// depth functions that do not order depths they are all fragments. `certain` is of their coverage and the alpha test
-/// alone.
+/// Finds the opaque fragments, seen or not, whose depth may equal the depth that opaque surfaces leave at a pixel.
+/// These are the possible surfaces, and those that fail the test against a clear depth which they may have themselves.
+/// Under depth functions that do not order depths they are all opaque fragments. `certain`: the fragment surely covers
+/// the sample and passes the alpha test and the depth test against the clear depth.
 PossibleSurfaces find_tied(const Projector& projector, const JudgedRows& rows = {}, int threads = 0);
 
 /// Finds the fragments of transparent surfaces that are not surely hidden by opaque ones. No transparent fragment hides

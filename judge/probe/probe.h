@@ -47,7 +47,8 @@ struct ProbeCheck {
   uint64_t pixels = 0, exact = 0, violations = 0;  ///< of all stages
 };
 
-/// Counts the pixels of a frame by how they fare under a profile, over all stages of the judgement.
+/// Judges a frame's G-buffer, and its blending or lighting, by a profile. Counts all pixels, the exact and the illegal
+/// ones; a pixel counts once in each of the two stages.
 ProbeCheck check_profile(const ProbeFrame& frame, const Profile& profile);
 
 }  // namespace trueshade::oracle

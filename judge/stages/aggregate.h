@@ -26,11 +26,11 @@ inline constexpr size_t kAggregateTests = 9;  ///< a stage
 /// 0.
 double chance_of_at_least(double observed, double mean);
 
-/// Tests one stage of a judgement. A choice is a pixel, or a store, that rounding errors let go one of two ways, with a
-/// predicted chance. Pixels of one triangle, and stores of equal values, are one choice, which counts for the share of
-/// its pixels that went the other way; so choices are independent. Predictions take errors to be spread evenly over
-/// their bounds. Systematic errors reach twice as many choices at most, so twice the predicted number is what is
-/// expected at most.
+/// Makes the nine tests of one stage of a judgement; the caller compares their `chance` with a limit. A choice is a
+/// pixel, or a store, that rounding errors let go one of two ways, with a predicted chance. Pixels of one triangle, and
+/// stores of equal values, are one choice, which counts for the share of its pixels that went the other way; so choices
+/// are independent. Predictions take errors to be spread evenly over their bounds. Systematic errors reach twice as
+/// many choices at most, so twice the predicted number is what is expected at most.
 ///   ruled out          stores that the likely rule rules out; one in 2^20 is let pass
 ///   equal values apart neighbouring pixels that stored one value as different codes, although the rule leaves one
 ///   crossed stores     stores that no nondecreasing conversion to codes makes; one in 2^20 is let pass
@@ -38,7 +38,8 @@ double chance_of_at_least(double observed, double mean);
 ///   store bias         their sum with signs, up or down (a drift such as truncation shows here)
 ///   store clusters     neighbouring pixels of unequal values that both took another than the nominal neighbour
 ///   other surfaces     pixels that show another than the nominal surface or branch of the shader
-///   a region           tiles of 8, 16, 32 and 64 pixels, and halves of the image: choices that went the other way, of
+///   stores of a region, surfaces of a region
+///                      tiles of 8, 16, 32 and 64 pixels, and halves of the image: choices that went the other way, of
 ///                      stores or of surfaces, against the share that they have elsewhere
 std::vector<AggregateTest> aggregate_tests(const StageVerdict& verdict);
 

@@ -11,7 +11,8 @@ namespace trueshade::oracle {
 /// with very many, it keeps those of some pixels only, chosen pseudo-randomly.
 class ConversionsInDoubt {
  public:
-  /// Notes a draw in column x whose code is added to what was there.
+  /// Notes a conversion in doubt: that of a channel of a draw in column x whose code is added to what the channel
+  /// holds. Does nothing where the pixel is none of those that are kept.
   void add(int x, const NearThreshold& conversion);
 
   /// Notes a draw in column x that overwrites a channel: forgets what was noted of that channel there.

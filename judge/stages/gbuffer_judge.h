@@ -86,7 +86,8 @@ class GBufferJudge {
   }
 
   bool is_clear(int x, int y) const;
-  /// Whether an albedo, where no opaque surface is seen, is what transparent surfaces may leave on the clear value.
+  /// Whether the albedo that `view` holds at (x, y), y from the top, is what transparent surfaces may leave on the
+  /// clear value; false where none may be there. The caller knows that no opaque surface is seen there.
   bool is_layered(const PlaneView& view, int x, int y) const;
   /// Judges the albedo where transparent surfaces are blended over an opaque one.
   template <typename Found>
@@ -143,7 +144,9 @@ class GBufferJudge {
   std::optional<TransparentLayers> layers_;  ///< blended into the albedo
 };
 
-/// Judges the given rows with every core, and adds them up to a verdict.
+/// Judges the given rows with every core, and makes the verdict of the whole image, in which pixels of other rows are
+/// EXACT and not counted.
+///   profile: the one that `judge` was made with
 StageVerdict verdict_by(const GBufferJudge& judge, const Pipeline& pipeline, const Profile& profile,
                         const JudgedRows& judged);
 

@@ -13,6 +13,6 @@ bool is_geometry_name(std::string_view name);
 /// Mesh of a geometry file's content. `name` chooses the format and stands in errors; `limits` hold for what is
 /// packed. Error(limit) where the mesh is over the memory cap.
 Mesh mesh_from_file(const Bytes& content, const std::string& name, const SceneLimits& limits,
-                    MissingNormals missing_normals);
+                    MissingNormals missing_normals, Faults& faults);
 
 }  // namespace trueshade

@@ -29,8 +29,10 @@ class TextSource {
         line_(header.lines + 1),
         where_(where) {}
 
+  std::string place() const { return std::string(where_) + ": line " + std::to_string(line_); }
+
   [[noreturn]] void fail(const std::string& reason, const std::string& remedy) const {
-    throw Error(ErrorKind::bad_input, std::string(where_) + ": line " + std::to_string(line_), reason, remedy);
+    throw Error(ErrorKind::bad_input, place(), reason, remedy);
   }
 
   double value(Type type) {
@@ -104,8 +106,10 @@ class BinarySource {
   BinarySource(std::span<const uint8_t> file, const ply::Header& header, std::string_view where)
       : file_(file), next_(header.bytes), swapped_(header.encoding == Encoding::big_endian), where_(where) {}
 
+  std::string place() const { return std::string(where_) + ": byte " + std::to_string(next_); }
+
   [[noreturn]] void fail(const std::string& reason, const std::string& remedy) const {
-    throw Error(ErrorKind::bad_input, std::string(where_) + ": byte " + std::to_string(next_), reason, remedy);
+    throw Error(ErrorKind::bad_input, place(), reason, remedy);
   }
 
   double value(Type type) {
@@ -174,8 +178,8 @@ const Property* find(const Element& element, std::string_view name) {
 template <typename Source>
 class Reader {
  public:
-  Reader(Source source, const ply::Header& header, std::string_view where, Mesh& mesh)
-      : source_(source), header_(header), where_(where), mesh_(mesh) {}
+  Reader(Source source, const ply::Header& header, std::string_view where, Faults& faults, Mesh& mesh)
+      : source_(source), header_(header), where_(where), faults_(faults), mesh_(mesh) {}
 
   /// Whether the file had normals.
   bool read() {
@@ -194,7 +198,9 @@ class Reader {
           for (const Property& property : element.properties) skip(property);
       }
     }
-    if (!has_vertices || !has_faces) source_.fail("there are no vertices or no faces", "elements vertex and face");
+    if (!has_vertices || !has_faces)
+      source_.fail(has_vertices ? "there are no faces: this is a cloud of points" : "there are no vertices",
+                   "elements vertex and face");
     source_.finish();
     return has_normals_;
   }
@@ -238,9 +244,13 @@ class Reader {
     size_t found = 0;
     for (const std::string_view name : names) found += find(element, name) != nullptr;
     if (found == 0 && !required) return false;
-    if (found != N)
-      source_.fail("the vertices have only some of " + std::string(names[0]) + " to " + std::string(names[N - 1]),
-                   "all or none");
+    if (found != N) {
+      const std::string reason =
+          "the vertices have only some of " + std::string(names[0]) + " to " + std::string(names[N - 1]);
+      if (required) source_.fail(reason, "all or none");
+      faults_.pass(Fault::value, source_.place(), reason, "all or none");
+      return false;
+    }
     for (size_t k = 0; k < N; ++k) {
       targets[size_t(find(element, names[k]) - element.properties.data())] = {&streams[k], 1.0, false};
       streams[k].reserve(element.count);
@@ -248,24 +258,30 @@ class Reader {
     return true;
   }
 
+  /// What a value of a colour is divided by; 0 of types that colours have not.
+  static double color_scale(Type type) {
+    if (type == Type::uint8) return 255.0;
+    if (type == Type::uint16) return 65535.0;
+    return ply::is_integer(type) ? 0.0 : 1.0;
+  }
+
   void assign_colors(const Element& element, std::vector<Target>& targets) {
-    const std::array<std::string_view, 4> names{"red", "green", "blue", "alpha"};
-    const size_t channels = find(element, "alpha") ? 4 : 3;
-    if (!find(element, "red") && !find(element, "green") && !find(element, "blue")) return;
-    for (size_t k = 0; k < channels; ++k) {
-      const Property* property = find(element, names[k]);
-      if (!property) source_.fail("the vertices have only some of red, green, blue", "all or none");
-      double scale = 1.0;
-      if (property->type == Type::uint8)
-        scale = 255.0;
-      else if (property->type == Type::uint16)
-        scale = 65535.0;
-      else if (ply::is_integer(property->type))
-        source_.fail("colours are of a signed or 32-bit type", "uchar, ushort, float or double");
-      targets[size_t(property - element.properties.data())] = {&mesh_.color[k], scale, true};
+    const std::array<const Property*, 4> found{find(element, "red"), find(element, "green"), find(element, "blue"),
+                                               find(element, "alpha")};
+    const auto colors = std::span(found).first(3);
+    if (std::count(colors.begin(), colors.end(), nullptr) == 3) return;
+    if (std::count(colors.begin(), colors.end(), nullptr) > 0)
+      return faults_.pass(Fault::value, source_.place(), "the vertices have only some of red, green, blue",
+                          "all or none");
+    if (std::any_of(found.begin(), found.end(), [](const Property* p) { return p && color_scale(p->type) == 0.0; }))
+      return faults_.pass(Fault::value, source_.place(), "colours are of a signed or 32-bit type",
+                          "uchar, ushort, float or double");
+    for (size_t k = 0; k < found.size(); ++k) {
+      if (!found[k]) continue;
+      targets[size_t(found[k] - element.properties.data())] = {&mesh_.color[k], color_scale(found[k]->type), true};
       mesh_.color[k].reserve(element.count);
     }
-    if (channels == 3) mesh_.color[3].assign(element.count, 1.0f);
+    if (!found[3]) mesh_.color[3].assign(element.count, 1.0f);
   }
 
   void read_vertices(const Element& element) {
@@ -308,14 +324,22 @@ class Reader {
         else
           skip(element.properties[p]);
       }
+    if (thin_faces_ > 0)
+      faults_.pass(Fault::value, source_.place(), "faces of fewer than 3 corners: " + std::to_string(thin_faces_),
+                   "3 or more");
   }
 
   void read_polygon(const Property& property, uint64_t face) {
     const uint64_t corners = list_length(property, count_in_doubt(face));
+    if (corners < 3 && faults_.passed()) {
+      ++thin_faces_;
+      for (uint64_t i = 0; i < corners; ++i) source_.skip(property.type);
+      return;
+    }
     if (corners < 3)
       source_.fail(
           "face " + std::to_string(face) + " has " + std::to_string(corners) + " corners" + count_in_doubt(face),
-          "3 or more");
+          faults_.remedy("3 or more"));
     make_room(3 * (corners - 2));
     uint32_t first = 0, previous = 0;
     for (uint64_t i = 0; i < corners; ++i) {
@@ -344,8 +368,10 @@ class Reader {
   Source source_;
   const ply::Header& header_;
   std::string_view where_;
+  Faults& faults_;
   Mesh& mesh_;
   bool has_normals_ = false;
+  uint64_t thin_faces_ = 0;  ///< of fewer than 3 corners
 };
 
 /// Numbers that a vertex has, with a normal.
@@ -358,12 +384,13 @@ uint64_t streams_of(const Mesh& mesh) {
 
 }  // namespace
 
-Mesh mesh_from_ply(std::span<const uint8_t> file, std::string_view where, MissingNormals missing_normals) {
-  const ply::Header header = ply::header_of(file, where);
+Mesh mesh_from_ply(std::span<const uint8_t> file, std::string_view where, MissingNormals missing_normals,
+                   Faults& faults) {
+  const ply::Header header = ply::header_of(file, where, faults);
   Mesh mesh;
-  const bool has_normals = header.encoding == Encoding::ascii
-                               ? Reader<TextSource>(TextSource(file, header, where), header, where, mesh).read()
-                               : Reader<BinarySource>(BinarySource(file, header, where), header, where, mesh).read();
+  const auto read = [&](auto source) { return Reader(source, header, where, faults, mesh).read(); };
+  const bool has_normals = header.encoding == Encoding::ascii ? read(TextSource(file, header, where))
+                                                              : read(BinarySource(file, header, where));
   if (!has_normals) {
     const uint64_t corners = missing_normals == MissingNormals::flat ? mesh.indices.size() : 0;
     require_memory(corners * sizeof(float) * streams_of(mesh) + 36 * uint64_t(mesh.vertex_count()), where,

@@ -17,11 +17,13 @@
 namespace trueshade {
 namespace {
 
-Scene scene_of(Mesh mesh) {
+Scene scene_of_ply(const Bytes& file, const std::string& name, const SceneLimits& limits) {
+  Faults faults(limits.leniency);
   Scene scene;
-  scene.meshes.push_back(std::move(mesh));
+  scene.meshes.push_back(mesh_from_file(file, name, limits, MissingNormals::smooth, faults));
   scene.materials.push_back({"grey", {0.7f, 0.7f, 0.7f, 1.0f}});
   scene.instances.push_back({});
+  faults.tell(scene);
   return scene;
 }
 
@@ -42,7 +44,7 @@ Scene scene_of_standard_input(const SceneLimits& limits, const ImageDecoder& dec
   const Bytes bytes = read_standard_input(limits.file_bytes, "--max-file");
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (text.starts_with("glTF")) return scene_from_gltf(bytes, where, limits, decode, parts);
-  if (text.starts_with("ply")) return shown(scene_of(mesh_from_file(bytes, where, limits, MissingNormals::smooth)));
+  if (text.starts_with("ply")) return shown(scene_of_ply(bytes, where, limits));
   if (!text.substr(std::min(text.find_first_not_of(" \t\r\n"), text.size())).starts_with('{'))
     throw Error(ErrorKind::bad_input, where, "its first bytes are neither of JSON nor of glTF, GLB or PLY",
                 "send one of these, or name a file");
@@ -84,8 +86,7 @@ Scene loaded_scene(const std::string& spec, const SceneLimits& limits, const Ima
   } else if (is_gltf_name(spec)) {
     scene = scene_from_gltf(read_user_file(spec, limits.file_bytes), spec, limits, decode, parts);
   } else if (is_geometry_name(spec)) {
-    const Bytes file = read_user_file(spec, limits.file_bytes);
-    scene = shown(scene_of(mesh_from_file(file, spec, limits, MissingNormals::smooth)));
+    scene = shown(scene_of_ply(read_user_file(spec, limits.file_bytes), spec, limits));
   } else if (is_obj_name(spec)) {
     const Bytes file = read_user_file(spec, limits.file_bytes);
     scene = shown(scene_from_obj(file, spec, limits, decode, MissingNormals::creased));

@@ -269,7 +269,9 @@ const std::vector<ObjectReader::Part>& ObjectReader::parts(const json::Node& nod
 std::vector<ObjectReader::Part> ObjectReader::parts_of_ply(const std::string& file, MissingNormals missing,
                                                            const std::string& where) {
   const Bytes bytes = folder_.read(file, limits_.file_bytes, where);
-  scene_.meshes.push_back(mesh_from_file(bytes, file, limits_, missing));
+  Faults faults(limits_.leniency);
+  scene_.meshes.push_back(mesh_from_file(bytes, file, limits_, missing, faults));
+  faults.tell(scene_);
   return {{uint32_t(scene_.meshes.size() - 1), std::nullopt}};
 }
 

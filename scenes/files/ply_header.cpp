@@ -8,7 +8,7 @@
 namespace trueshade::ply {
 namespace {
 
-constexpr size_t kMaxParts = 256;  // elements, and properties of one: names are compared pairwise
+constexpr size_t kMaxParts = 256;  // elements, and properties of one: names are compared pairwise; lines left out
 constexpr size_t kMaxLine = 4096;  // bytes; a file that is no PLY must not be searched for line ends to its end
 
 std::optional<Type> type_from_name(std::string_view name) {
@@ -28,8 +28,8 @@ std::optional<Type> type_from_name(std::string_view name) {
 
 class HeaderReader {
  public:
-  HeaderReader(std::span<const uint8_t> file, std::string_view where)
-      : text_(reinterpret_cast<const char*>(file.data()), file.size()), where_(where) {}
+  HeaderReader(std::span<const uint8_t> file, std::string_view where, Faults& faults)
+      : text_(reinterpret_cast<const char*>(file.data()), file.size()), where_(where), faults_(faults) {}
 
   Header read() {
     next_line();
@@ -38,7 +38,10 @@ class HeaderReader {
     read_format();
     for (;;) {
       next_line();
-      if (words_.empty()) fail("the line is empty", "a keyword of a PLY header");
+      if (words_.empty()) {
+        leave_out("the line is empty", "a keyword of a PLY header");
+        continue;
+      }
       const std::string_view keyword = words_[0];
       if (keyword == "comment" || keyword == "obj_info") continue;
       if (keyword == "end_header" && words_.size() == 1) break;
@@ -47,8 +50,8 @@ class HeaderReader {
       else if (keyword == "property")
         read_property();
       else
-        fail("'" + std::string(keyword.substr(0, 40)) + "' is no keyword of a PLY header",
-             "comment, obj_info, element, property or end_header");
+        leave_out("'" + std::string(keyword.substr(0, 40)) + "' is no keyword of a PLY header",
+                  "comment, obj_info, element, property or end_header");
     }
     header_.bytes = position_;
     header_.lines = line_;
@@ -56,14 +59,21 @@ class HeaderReader {
   }
 
  private:
+  std::string place() const { return std::string(where_) + ": line " + std::to_string(line_); }
+
   [[noreturn]] void fail(const std::string& reason, const std::string& remedy) const {
-    throw Error(ErrorKind::bad_input, std::string(where_) + ": line " + std::to_string(line_), reason, remedy);
+    throw Error(ErrorKind::bad_input, place(), reason, remedy);
+  }
+
+  void leave_out(const std::string& reason, const std::string& remedy) {
+    check_room(left_out_++, "lines of no keyword");
+    faults_.pass(Fault::statement, place(), reason, remedy);
   }
 
   void check_room(size_t parts, const char* what) const {
     if (parts < kMaxParts) return;
-    throw Error(ErrorKind::limit, std::string(where_) + ": line " + std::to_string(line_),
-                std::string("there are too many ") + what, "at most " + std::to_string(kMaxParts));
+    throw Error(ErrorKind::limit, place(), std::string("there are too many ") + what,
+                "at most " + std::to_string(kMaxParts));
   }
 
   void next_line() {
@@ -128,6 +138,8 @@ class HeaderReader {
   }
 
   std::string_view text_, where_;
+  Faults& faults_;
+  size_t left_out_ = 0;
   std::vector<std::string_view> words_;
   size_t position_ = 0;
   int line_ = 0;
@@ -136,6 +148,8 @@ class HeaderReader {
 
 }  // namespace
 
-Header header_of(std::span<const uint8_t> file, std::string_view where) { return HeaderReader(file, where).read(); }
+Header header_of(std::span<const uint8_t> file, std::string_view where, Faults& faults) {
+  return HeaderReader(file, where, faults).read();
+}
 
 }  // namespace trueshade::ply

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "scenes/files/content/faults.h"
+
 namespace trueshade::ply {
 
 enum class Encoding : uint8_t { ascii, little_endian, big_endian };
@@ -51,7 +53,7 @@ struct Header {
   int lines = 0;
 };
 
-/// Error(bad_input) with `WHERE: line N`.
-Header header_of(std::span<const uint8_t> file, std::string_view where);
+/// Error(bad_input) with `WHERE: line N`. A line of no keyword is a fault that may be passed over.
+Header header_of(std::span<const uint8_t> file, std::string_view where, Faults& faults);
 
 }  // namespace trueshade::ply

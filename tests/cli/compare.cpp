@@ -609,6 +609,26 @@ TEST_CASE("compare --junit writes a testcase a picture, and names that XML has t
   CHECK(xml.find("<error type=\"unreadable\"") != std::string::npos);
 }
 
+TEST_CASE("Bounds are told as they were given, and what was measured beside a fraction as one") {
+  const ScratchFolder folder;
+  Image plain(8, 8, Format::rgba8);
+  std::fill(plain.texels.begin(), plain.texels.end(), uint8_t(255));
+  Image other = plain;
+  other.set_code(3, 2, 0, 253);
+  write_file(folder.path("ref.png"), encode_png(plain, {}));
+  write_file(folder.path("test.png"), encode_png(other, {}));
+  const auto told = [&](Arguments criteria) {
+    criteria.insert(criteria.begin(), {"ref.png", "test.png", "--no-judge"});
+    return run_compare(folder, criteria).out;
+  };
+  CHECK(has(told({"--max-difference", "1/255"}), "largest difference 2/255 (at most 1/255): DOES NOT HOLD"));
+  CHECK(has(told({"--max-difference", "0.0100"}), "largest difference 0.00784314 (at most 0.0100): holds"));
+  CHECK(has(told({"--max-difference", "1/100"}), "largest difference 0.00784314 (at most 1/100): holds"));
+  const std::string pixels = told({"--pixels", "0", "--delta", "1/255"});
+  CHECK(has(pixels, "pixels that differ by more than 1/255: 1 (at most 0): DOES NOT HOLD"));
+  CHECK(has(pixels, "1 of 64 pixels differs by more than 1/255, mean error"));
+}
+
 TEST_CASE("An error that ends compare is in its JUnit, in place of what an earlier run wrote there") {
   const ScratchFolder folder;
   write_folders(folder);
@@ -620,6 +640,15 @@ TEST_CASE("An error that ends compare is in its JUnit, in place of what an earli
   CHECK(xml.find("message=\"gone: ") != std::string::npos);
   CHECK(run_compare(folder, {"ref", "test", "-o", "one", "-o", "two", "--junit", "j.xml"}).exit_code == 2);
   CHECK(has(contents(folder.path("j.xml")), "one folder takes all maps"));
+  // So it is on a page, but on none that is not ours, and on none where none was.
+  REQUIRE(run_compare(folder, {"ref", "ref/../test", "--no-judge", "-o", "p.html"}).exit_code == 1);
+  folder.write("mine.html", "<!doctype html>\n<title>mine</title>\n");
+  const Outcome late = run_compare(folder, {"ref", "gone", "-o", "p.html", "-o", "mine.html", "-o", "new.html"});
+  CHECK(late.exit_code == 5);
+  CHECK(has(late.err, "note: p.html was of an earlier run, and now says that this one ended with an error"));
+  CHECK(has(contents(folder.path("p.html")), "The command ended with an error: gone: "));
+  CHECK(has(contents(folder.path("mine.html")), "mine"));
+  CHECK_FALSE(std::filesystem::exists(folder.path("new.html")));
   // It is never one of what is compared.
   folder.write("j.xml", "mine");
   CHECK(run_compare(folder, {"j.xml", "test/extra.exr", "--junit", "j.xml"}).exit_code == 2);

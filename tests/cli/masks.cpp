@@ -97,6 +97,8 @@ TEST_CASE("what a mask leaves out is no difference, and is counted in text, JSON
   const std::string html = contents(folder.path("page.html"));
   text_says(html, "pixels left out");
   text_says(html, "\"left out\"");
+  CHECK(compare_pair(folder, {"--mask", "mask.npy", "--junit", "j.xml"}).exit_code == 0);
+  text_says(contents(folder.path("j.xml")), "192 are left out</system-out>");
   const auto json = json_of(compare_pair(folder, {"--mask", "mask.npy", "--json", "--flip", "0", "--psnr", "200"}));
   CHECK(json["left_out_pixels"] == 192);
   CHECK(json["left_out_by"] == "mask.npy");
@@ -186,7 +188,8 @@ TEST_CASE("of folders one mask goes for all pictures, and what is wrong with it 
   write_npy(folder.path("small.npy"), even(1, 1, 8, 8), "|b1");
   write_npy(folder.path("much.npy"), with_icon(even(1, 1), 0, 0, 0, kMaskedWidth, 30), "|b1");
   CHECK(run({}).exit_code == 1);
-  const auto json = json_of(run({"--mask", "mask.npy", "--json"}));
+  const auto json = json_of(run({"--mask", "mask.npy", "--json", "--junit", "j.xml"}));
+  text_says(contents(folder.path("j.xml")), "192 are left out</system-out>");
   CHECK(json["passes"] == true);
   CHECK(json["pictures"][1]["left_out_pixels"] == 192);
   for (const char* wrong : {"small.npy", "much.npy"}) {
@@ -206,7 +209,7 @@ TEST_CASE("the worst windows are told, and one fails the comparison") {
   CHECK(text.exit_code == 1);
   // 16 of its 16 columns and 12 of its rows are the icon's: of 8, 12, 16, ... the first window that has all of it.
   text_says(text.out,
-            "window      16x16 at 8,4: 192 of 256 pixels differ by more than 0.00784314, mean error 0.2941, "
+            "window      16x16 at 8,4: 192 of 256 pixels differ by more than 2/255, mean error 0.2941, "
             "largest 0.3922");
   text_says(text.out, "in a window of 16x16: 0.75 (at most 0.5): DOES NOT HOLD");
   CHECK(compare_pair(folder, {"--window", "16:0.75", "--window", "64:1"}).exit_code == 0);

@@ -61,14 +61,36 @@ TEST_CASE("Pixels at the largest value of the target are counted, and of a float
   const std::string bright =
       R"("lights": [{"type": "point", "position": [0, 2, 4], "range": 9, "color": [90, 90, 90]}])";
   const std::string said = said_of(bright, {"--target", "rgba8"});
-  CHECK(has(said, " of 192 pixels have a channel at 1, the largest value of rgba8: Brighter light is cut off"));
+  CHECK(has(said, " pixels with a surface have a channel at 1, the largest value of rgba8: Brighter light is cut off"));
   CHECK(has(said, "--target rgba16f"));
   CHECK(has(said_of(bright, {"--target", "rgb10_a2"}), "the largest value of rgb10_a2"));
   CHECK(said_of(bright, {"--target", "rgba16f"}).empty());
   CHECK_FALSE(has(said_of(bright, {"--target", "rgba16f", "-o", "x.exr"}), "largest value"));
-  CHECK(has(said_of(bright, {"--target", "rgba16f", "-o", "x.png"}), " of 192 pixels have a channel above 1, the "));
+  CHECK(has(said_of(bright, {"--target", "rgba16f", "-o", "x.png"}),
+            " pixels with a surface have a channel above 1, the "));
   CHECK_FALSE(has(said_of(kLamp, {"--target", "rgba16f", "-o", "x.png"}), "largest value"));
   CHECK_FALSE(has(said_of(kLamp), "largest value"));
+}
+
+TEST_CASE("A white background is not counted among the pixels that are cut off") {
+  const std::string bright =
+      R"("lights": [{"type": "point", "position": [0, 2, 4], "range": 9, "color": [90, 90, 90]}])";
+  const std::string small = R"(, "camera": {"eye": [0, 0, 9], "target": [0, 0, 0]})";
+  const auto noted = [](const std::string& said) {
+    const size_t end = said.find(" pixels with a surface have a channel");
+    return end == std::string::npos ? "" : said.substr(said.rfind(": ", end) + 2, end - said.rfind(": ", end) - 2);
+  };
+  for (const char* target : {"rgba8", "srgb8_a8", "rgb10_a2"})
+    for (const char* samples : {"1", "4"}) {
+      INFO(target << ' ' << samples);
+      const Arguments dark{"--target", target, "--samples", samples};
+      Arguments white = dark;
+      white.insert(white.end(), {"--background", "white"});
+      CHECK_FALSE(has(said_of(kLamp + small, white), "largest value"));
+      const std::string counted = noted(said_of(bright + small, dark));
+      CHECK_FALSE(counted.empty());
+      if (std::string(samples) == "1") CHECK(counted == noted(said_of(bright + small, white)));
+    }
 }
 
 TEST_CASE("Averaged samples that are cut off are counted too") {
@@ -187,6 +209,15 @@ TEST_CASE("Quiet, the command says neither notes nor files, and errors all the s
 TEST_CASE("The command help names commands and their options") {
   CHECK(run_command({"help"}).out == run_command({"--help"}).out);
   CHECK(run_command({"help", "render"}).out == run_command({"render", "--help"}).out);
+  // A line of help may be broken between any two words.
+  const auto one_line = [](const char* command) {
+    std::string text;
+    for (const char c : run_command({"help", command}).out)
+      if ((c != ' ' && c != '\n') || !text.ends_with(' ')) text += c == '\n' ? ' ' : c;
+    return text;
+  };
+  CHECK(has(one_line("render"), "light.<i> (i counts lights from 0)"));
+  for (const char* command : {"explain", "validate"}) CHECK(has(one_line(command), " counted from 0, in the scene's"));
   check_refused(run_command({"help", "rendr"}), 2, "there is no command 'rendr'");
 }
 

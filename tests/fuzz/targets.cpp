@@ -125,7 +125,9 @@ void run_scene(Bytes bytes) {
 void run_geometry(Bytes bytes, const char* name) {
   read([&] {
     Scene scene;
-    scene.meshes.push_back(mesh_from_file({bytes.begin(), bytes.end()}, name, small_limits(), MissingNormals::smooth));
+    Faults faults(small_limits().leniency);
+    scene.meshes.push_back(
+        mesh_from_file({bytes.begin(), bytes.end()}, name, small_limits(), MissingNormals::smooth, faults));
     scene.materials.emplace_back();
     scene.instances.emplace_back();
     check_scene(std::move(scene));

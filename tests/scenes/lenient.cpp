@@ -63,6 +63,9 @@ TEST_CASE("lenient: what a picture that cannot be read would colour is grey, and
                                               std::string(bad) + R"("}, {"uri": ")" + good + "\"}]"),
                std::string(bad) == "absent.png" ? ErrorKind::io : ErrorKind::bad_input);
     CHECK_STARTS_WITH(the_fault(scene), "1 picture cannot be read, so what it colours is grey: ");
+    CHECK(the_fault(scene).ends_with(
+              " (add --trust-paths where you trust the file, to read what lies outside its folder)") ==
+          (std::string(bad) == "../out.png"));
     const Material& m = scene.materials.at(0);
     CHECK(m.base_color == glm::vec4(0.5f, 0.25f, 0.125f, 1.0f));
     CHECK(m.roughness == 0.5f);
@@ -333,6 +336,60 @@ TEST_CASE("lenient: of many faults five are named, and what a file says is print
   CHECK(line.find('\x1b') == std::string::npos);
 }
 
+// --- PLY ------------------------------------------------------------------------------------------------------------
+
+constexpr const char* kPlyFaces = "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+
+/// A triangle, and a face more: lines of the header in front of its elements, properties of a vertex besides x, y and
+/// z, of which each is 1, and the other face.
+std::string triangle_ply(const std::string& lines, const std::vector<std::string>& properties,
+                         const std::string& face) {
+  std::string text = "ply\nformat ascii 1.0\n" + lines + "element vertex 3\n", ones;
+  for (const char* name : {"float x", "float y", "float z"}) text += std::string("property ") + name + '\n';
+  for (const std::string& property : properties) text += "property " + property + '\n', ones += " 1";
+  text += kPlyFaces;
+  for (const char* place : {"0 0 0", "1 0 0", "0 1 0"}) text += place + ones + '\n';
+  return text + "3 0 1 2\n" + face + '\n';
+}
+
+TEST_CASE("lenient: of a PLY file odd lines of the header, incomplete properties and thin faces are left out") {
+  const ScratchFolder scratch;
+  const auto load = [&](const std::string& text, Leniency leniency) {
+    return load_scene(scratch.write("m.ply", text), limits_with(leniency), decode_plain);
+  };
+  const Scene whole = load(triangle_ply("", {}, "3 0 2 1"), Leniency::refused);
+  struct Oddity {
+    std::string text, reason;
+  };
+  const std::string full = "3 0 2 1";
+  const std::vector<Oddity> oddities = {
+      {triangle_ply("Created by Blender3D 247\n", {}, full), "line 3: 'Created' is no keyword of a PLY header"},
+      {triangle_ply("\n", {}, full), "line 3: the line is empty"},
+      {triangle_ply("", {"uchar red", "uchar blue"}, full), "only some of red, green, blue"},
+      {triangle_ply("", {"int red", "int green", "int blue"}, full), "colours are of a signed or 32-bit type"},
+      {triangle_ply("", {"float nx"}, full), "only some of nx to nz"},
+      {triangle_ply("", {"float s"}, full), "only some of s to t"}};
+  for (const Oddity& oddity : oddities) {
+    const std::string strict = error_of(ErrorKind::bad_input, [&] { load(oddity.text, Leniency::offered); });
+    CHECK(strict.find(oddity.reason) != std::string::npos);
+    CHECK(strict.ends_with(kHint));
+    const Scene scene = load(oddity.text, Leniency::asked);
+    CHECK(the_fault(scene).find(oddity.reason) != std::string::npos);
+    CHECK(scene_hash(scene) == scene_hash(whole));
+  }
+  const std::string thin = triangle_ply("", {}, "2 0 1");
+  CHECK(error_of(ErrorKind::bad_input, [&] { load(thin, Leniency::offered); }).ends_with(kHint));
+  const Scene scene = load(thin, Leniency::asked);
+  CHECK(the_fault(scene).find("faces of fewer than 3 corners: 1") != std::string::npos);
+  CHECK(scene.meshes.at(0).triangle_count() == 1);
+  std::string lines;
+  for (int i = 0; i < 257; ++i) lines += "odd\n";
+  error_of(ErrorKind::limit, [&] { load(triangle_ply(lines, {}, full), Leniency::asked); });
+  scratch.write("m.ply", oddities.front().text);
+  const std::string json = scratch.write("s.json", R"({"version": 1, "objects": [{"geometry": "m.ply"}]})");
+  CHECK(the_fault(load_scene(json, limits_with(Leniency::asked), decode_plain)).find("line 3") != std::string::npos);
+}
+
 // --- Paths ----------------------------------------------------------------------------------------------------------
 
 SceneLimits trusting() {
@@ -346,6 +403,8 @@ TEST_CASE("trusted paths may be absolute, lead out of the folder and be links, a
   CHECK(path_from_uri("../a.ply", "w", NamedPaths::any) == "../a.ply");
   for (const char* bad : {"", "a\\b", "a%00b", "http://x/a.ply", "C:/a.ply"})
     error_of(ErrorKind::bad_input, [&] { path_from_uri(bad, "w", NamedPaths::any); });
+  CHECK_STARTS_WITH(error_of(ErrorKind::bad_input, [&] { path_from_uri("C:/a.ply", "w"); }),
+                    "w: the path begins with a drive of Windows");
   for (const char* outside : {"/a/b.ply", "../a.ply"})
     CHECK(error_of(ErrorKind::bad_input, [&] { path_from_uri(outside, "w"); }).find(", or --trust-paths where") !=
           std::string::npos);

@@ -17,7 +17,13 @@ constexpr std::string_view kQuad =
     "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
 
 Mesh read_ply(std::string_view text, MissingNormals normals = MissingNormals::flat) {
-  return mesh_from_ply(bytes_of(text), "m.ply", normals);
+  Faults faults(Leniency::refused);
+  return mesh_from_ply(bytes_of(text), "m.ply", normals, faults);
+}
+
+Mesh unpacked_ply(const Bytes& packed, uint64_t most_bytes) {
+  Faults faults(Leniency::refused);
+  return mesh_from_file(packed, "m.ply.gz", SceneLimits{.file_bytes = most_bytes}, MissingNormals::flat, faults);
 }
 
 std::string ply_refusal(std::string_view text) {
@@ -121,10 +127,7 @@ TEST_CASE("a file cut at any byte is refused") {
   }
   const std::string packed = gzipped(kQuad);
   for (size_t size = 0; size < packed.size(); ++size)
-    error_of(ErrorKind::bad_input, [&] {
-      mesh_from_file(bytes_of(packed.substr(0, size)), "m.ply.gz", SceneLimits{.file_bytes = 1 << 20},
-                     MissingNormals::flat);
-    });
+    error_of(ErrorKind::bad_input, [&] { unpacked_ply(bytes_of(packed.substr(0, size)), 1 << 20); });
 }
 
 TEST_CASE("bad text files are refused with the line") {
@@ -157,6 +160,9 @@ TEST_CASE("bad text files are refused with the line") {
   CHECK_STARTS_WITH(ply_refusal(replaced(kQuad, "4 0 1 2 3", "200 0 1 2 3")), "m.ply: line 15: a list says 200");
   CHECK_STARTS_WITH(ply_refusal(replaced(kQuad, "4 0 1 2 3", "300 0 1 2 3")),
                     "m.ply: line 15: '300' does not fit its type");
+  CHECK_STARTS_WITH(ply_refusal("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                                "property float z\nend_header\n0 0 0\n"),
+                    "m.ply: line 8: there are no faces: this is a cloud of points");
   CHECK_STARTS_WITH(ply_refusal(std::string(kQuad) + "7\n"), "m.ply: line 16: more data after the last element");
   CHECK_STARTS_WITH(ply_refusal(std::string("ply\n") + std::string(100000, 'x')),
                     "m.ply: line 2: the header has no end");
@@ -179,14 +185,12 @@ TEST_CASE("a header of too many elements or properties is refused before names a
       text += "element e" + std::to_string(e) + " 0\n";
       for (int p = 0; p < properties; ++p) text += "property char p" + std::to_string(p) + "\n";
     }
-    return bytes_of(text + "end_header\n");
+    return text + "end_header\n";
   };
-  CHECK_STARTS_WITH(
-      error_of(ErrorKind::limit, [&] { mesh_from_ply(header(200000, 0), "m.ply", MissingNormals::flat); }),
-      "m.ply: line 259: there are too many elements");
-  CHECK_STARTS_WITH(
-      error_of(ErrorKind::limit, [&] { mesh_from_ply(header(1, 200000), "m.ply", MissingNormals::flat); }),
-      "m.ply: line 260: there are too many properties");
+  CHECK_STARTS_WITH(error_of(ErrorKind::limit, [&] { read_ply(header(200000, 0)); }),
+                    "m.ply: line 259: there are too many elements");
+  CHECK_STARTS_WITH(error_of(ErrorKind::limit, [&] { read_ply(header(1, 200000)); }),
+                    "m.ply: line 260: there are too many properties");
 }
 
 TEST_CASE("text may use tabs, CRLF, plus signs and one line for all") {
@@ -196,11 +200,8 @@ TEST_CASE("text may use tabs, CRLF, plus signs and one line for all") {
 
 TEST_CASE("a compressed file is unpacked, up to the limit and not beyond") {
   const Bytes packed = bytes_of(gzipped(kQuad));
-  CHECK(mesh_from_file(packed, "m.ply.gz", SceneLimits{.file_bytes = kQuad.size()}, MissingNormals::flat)
-            .triangle_count() == 2);
-  error_of(ErrorKind::limit, [&] {
-    mesh_from_file(packed, "m.ply.gz", SceneLimits{.file_bytes = kQuad.size() - 1}, MissingNormals::flat);
-  });
+  CHECK(unpacked_ply(packed, kQuad.size()).triangle_count() == 2);
+  error_of(ErrorKind::limit, [&] { unpacked_ply(packed, kQuad.size() - 1); });
   const Bytes bomb = bytes_of(gzipped(std::string(32 << 20, ' ')));
   CHECK(bomb.size() < 40000);
   error_of(ErrorKind::limit, [&] { gunzipped(bomb, SceneLimits{.file_bytes = 1 << 20}, "bomb.ply.gz"); });

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/printable_text.h"
+#include "scenes/files/content/scene_files.h"
 
 namespace trueshade {
 namespace {
@@ -56,7 +57,9 @@ void Faults::pass(Fault fault, const std::string& key, const Error& error) {
   if (is_of_content && leniency_ == Leniency::offered) throw with_remedy(error);
   if (!is_of_content || !passed()) throw error;
   const std::string_view text = error.what();
-  add(fault, key, text.substr(0, text.rfind(" (")));
+  const size_t remedy = text.rfind(" (");
+  add(fault, key, text.substr(0, remedy));
+  found_[size_t(fault)].any_untrusted |= text.find(kTrustRemedy, remedy) != std::string_view::npos;
 }
 
 void Faults::add(Fault fault, const std::string& key, std::string_view text) {
@@ -75,6 +78,7 @@ void Faults::tell(Scene& scene) const {
     std::string line = std::to_string(count) + ' ' + (count == 1 ? kWords[i].one : kWords[i].several) + ": ";
     for (size_t k = 0; k < found.first.size(); ++k) line += (k > 0 ? "; " : "") + found.first[k];
     if (count > kNamed) line += "; and " + std::to_string(count - kNamed) + " more";
+    if (found.any_untrusted) line += " (add " + std::string(kTrustRemedy) + ", to read what lies outside its folder)";
     lines.push_back(std::move(line));
   }
   tell_passed_over(lines, scene);

@@ -50,6 +50,7 @@ class Faults {
   struct Found {
     std::set<std::string> keys;
     std::vector<std::string> first;  ///< where a few of them are, and why, in their order
+    bool any_untrusted = false;      ///< whether kTrustRemedy is the remedy of one
   };
   void add(Fault fault, const std::string& key, std::string_view text);
 

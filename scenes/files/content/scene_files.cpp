@@ -25,7 +25,7 @@ namespace {
 // O_NONBLOCK: opening a FIFO must not wait for its other end before fstat can refuse it.
 constexpr int kOpenFlags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
 
-const std::string kOrTrusted = ", or --trust-paths where you trust the file";
+const std::string kOrTrusted = ", or " + std::string(kTrustRemedy);
 
 class Descriptor {
  public:
@@ -170,7 +170,7 @@ std::string path_from_uri(std::string_view uri, std::string_view where, NamedPat
   const auto fail_unless_trusted = [&](const char* reason) {
     if (paths == NamedPaths::inside) throw Error(ErrorKind::bad_input, where, reason, remedy + kOrTrusted);
   };
-  if (has_scheme(uri)) fail("the path has a scheme");
+  if (has_scheme(uri)) fail(uri[1] == ':' ? "the path begins with a drive of Windows" : "the path has a scheme");
   std::string path;
   for (size_t i = 0; i < uri.size(); ++i) {
     char c = uri[i];

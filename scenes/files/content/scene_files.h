@@ -14,6 +14,9 @@ namespace trueshade {
 
 using Bytes = std::vector<uint8_t>;
 
+/// What the remedy says where the folder of a scene ends, and the user may let it name files anywhere.
+inline constexpr std::string_view kTrustRemedy = "--trust-paths where you trust the file";
+
 /// Whole content of the regular file at `path`, which the user gave. Never waits for a pipe or device.
 /// Error(io) if it cannot be read, Error(bad_input) if it is no regular file, Error(limit) over `limit` bytes, which
 /// `option` sets, if any does, or over the memory cap.

@@ -88,7 +88,7 @@ class Libraries {
     if (drawn_.front() >= 0 && document_.libraries.empty() && !document_.uvs.empty())
       scene_.notes.push_back(
           "The file has texture coordinates and names no material (mtllib), so it is grey: A scene "
-          "file gives it a texture");
+          "file gives it a texture (docs/obj.md)");
     const std::string undefined =
         " grey, because no library of the file (mtllib) defines " + std::string(undefined_ == 1 ? "it: " : "them: ");
     add_note(undefined_, "material is", "materials are",
