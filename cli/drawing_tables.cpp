@@ -268,6 +268,8 @@ CommandTable explain_table(ExplainOptions& options) {
       table, "--all", options.all,
       "Print every covering triangle, every light and every draw, also those that change nothing, and every step of "
       "a light program");
+  add_switch(table, "--brief", options.brief,
+             "Print what is seen and stored alone, and with --against that value, its class and its causes");
   add_switch(table, "--json", options.json, "Print all of it as one JSON document");
   add_quiet(table, options, "Say neither notes nor progress");
   add_size(table, options.size);

@@ -1,6 +1,7 @@
 #include "explain/explain.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <stdexcept>
@@ -24,6 +25,7 @@
 #include "core/image_pixel.h"
 #include "explain/against.h"
 #include "explain/finished_pixel.h"
+#include "explain/line_edits.h"
 #include "judge/stages/legal_pixel.h"
 #include "scenes/pipeline/presets.h"
 #include "scenes/scene.h"
@@ -41,6 +43,10 @@ std::vector<std::string> planes_to_judge(const ExplainOptions& options, const Pi
   if (pipeline.light_model.emission) planes.emplace_back("emission");
   if (pipeline.light_program.used()) planes.emplace_back("id.material");
   return planes;
+}
+
+Detail detail_of(const ExplainOptions& options) {
+  return options.brief ? Detail::brief : options.all ? Detail::all : Detail::usual;
 }
 
 /// What is explained: a pixel of the target before the post chain.
@@ -171,6 +177,68 @@ oracle::PixelClass add_legal(const Question& q, const Image& given, double diffe
   return legal.pixel_class;
 }
 
+/// Adds a cause as a part, which comes back: a heading, and what the pixel would hold.
+Account& add_cause(const Question& q, const char* key, const std::string& what, const StoredPixel& stored,
+                   double difference, Account& out) {
+  const Format format = q.frame.target.format;
+  Account& part = out.part(key, what + ": " + distance_words(format, difference));
+  part.quantities.push_back({"would_be", "what the pixel would hold", values_in_format(format, stored), true, {}});
+  part.add("difference", difference, "largest over the channels: codes, or a share of the value");
+  if (q.options.brief) part.shown = part.title;
+  return part;
+}
+
+/// Adds an edit of a line: its text as it stands, and as it would have to read; in brief without the numbers.
+void add_edit(const Question& q, const LineEdit& edit, Account& out) {
+  Account& part = add_cause(q, "edit", edit.what, edit.stored, edit.difference, out);
+  if (edit.it_reads.empty()) return;
+  if (q.options.brief)
+    part.shown.clear(), part.quantities.clear();
+  else
+    part.add("line", int64_t(edit.line), "of the light program's text");
+  part.add("it_reads", edit.it_reads, "");
+  if (!edit.drawn_as.empty()) part.add("drawn_as", edit.drawn_as, "");
+}
+
+/// Says how many other edits are as likely: a single pixel is explained by many.
+void add_count_of_edits(const LineEdits& edits, Account& out) {
+  const size_t more = edits.alike - edits.nearest.size();
+  const std::string of = " of the " + std::to_string(edits.tried) + " edits of lines that were tried";
+  std::string words = more == 0 ? "no other" + of + " comes as near"
+                                : std::to_string(more) + " more" + of + (more == 1 ? " comes" : " come") +
+                                      " as near here: trueshade validate finds which of them explains all pixels";
+  if (edits.left_out > 0) words += "; " + std::to_string(edits.left_out) + " were left out to save time";
+  Account& part = out.part("edits", words);
+  part.shown = part.title;
+  part.add("alike", int64_t(edits.alike), "edits of lines that come as near as the first");
+  part.add("tried", int64_t(edits.tried), "edits of lines");
+  part.add("left_out", int64_t(edits.left_out), "edits that would have taken too long");
+}
+
+/// What may have made the given value: other changes of the frame, and edits of the light program's lines. The nearest
+/// come first; in brief those that make the value are told alone, if there are any.
+void add_causes(const Question& q, const PixelHistory& history, const StoredPixel& given, Account& out) {
+  std::vector<Candidate> candidates = candidates_for(q.frame, history, q.reference.color, given);
+  LineEdits edits = line_edits_for(q.frame, history, given);
+  if (candidates.empty() && edits.nearest.empty())
+    out.add("causes",
+            std::string("no single change that is tried makes this value, or nearly so") +
+                (edits.tried == 0 ? "" : ", nor does an edit of a line"),
+            "");
+  const auto is_off = [](const auto& cause) { return cause.difference > 0; };
+  if (q.options.brief && !(std::all_of(candidates.begin(), candidates.end(), is_off) &&
+                           std::all_of(edits.nearest.begin(), edits.nearest.end(), is_off)))
+    std::erase_if(candidates, is_off), std::erase_if(edits.nearest, is_off);
+  size_t next = 0;
+  const auto add_candidates_up_to = [&](double difference) {
+    for (; next < candidates.size() && candidates[next].difference <= difference; ++next)
+      add_cause(q, "candidate", candidates[next].what, candidates[next].stored, candidates[next].difference, out);
+  };
+  for (const LineEdit& edit : edits.nearest) add_candidates_up_to(edit.difference), add_edit(q, edit, out);
+  add_candidates_up_to(HUGE_VAL);
+  if (!edits.nearest.empty()) add_count_of_edits(edits, out);
+}
+
 /// Where another picture's value could have come from.
 Account against_account(const Question& q, const PixelHistory& history) {
   Account out("against", *q.options.against + " there");
@@ -197,18 +265,7 @@ Account against_account(const Question& q, const PixelHistory& history) {
     out.add("causes", "none is looked for: OpenGL allows this value", "");
     return out;
   }
-  const std::vector<Candidate> candidates = candidates_for(q.frame, history, q.reference.color, value);
-  if (candidates.empty())
-    out.add("causes",
-            std::string("no single change that is tried makes this value, or nearly so") +
-                (q.frame.pipeline.light_program.used() ? "; validate tries changes of the light program's lines" : ""),
-            "");
-  for (const Candidate& candidate : candidates) {
-    Account& part = out.part("candidate", candidate.what + ": " + distance_words(format, candidate.difference));
-    part.quantities.push_back(
-        {"would_be", "what the pixel would hold", values_in_format(format, candidate.stored), true, {}});
-    part.add("difference", candidate.difference, "largest over the channels: codes, or a share of the value");
-  }
+  add_causes(q, history, value, out);
   return out;
 }
 
@@ -234,7 +291,7 @@ void explain(const ExplainOptions& options) {
   const Question question(options, scene, pipeline);
   const PixelHistory history = history_of(question.frame, question.x, question.y);
   check_explanation(question, history);
-  Account account = account_of(question.frame, history, options.all ? Detail::all : Detail::usual);
+  Account account = account_of(question.frame, history, detail_of(options));
   if (options.against) account.parts.push_back(against_account(question, history));
   add_finished_pixel(scene, pipeline, options.x, options.y, account);
   if (options.json)

@@ -250,6 +250,7 @@ ShadeOptions finished(ShadeOptions options) {
 ExplainOptions finished(ExplainOptions options) {
   check_pipeline_options(options);
   if (options.x < 0) throw usage("--pixel", "no pixel is named", "add --pixel X,Y, counted from the top left");
+  if (options.brief && options.all) throw usage("--brief", "--brief and --all exclude each other", "give one of them");
   if (options.against && options.limits.leniency == Leniency::asked)
     throw usage("--lenient", "no picture is held to a scene whose faults are passed over", "leave it or --against out");
   check_scene(options.scene);

@@ -187,6 +187,7 @@ struct ExplainOptions : PipelineOptions {
   int x = -1, y = -1;                  ///< column and row of the pixel, from the top left
   std::optional<std::string> against;  ///< a picture whose value is to be found out
   bool all = false;                    ///< every triangle, light and draw, also those that change nothing
+  bool brief = false;                  ///< what is seen and stored, and what `against` is, without the way there
   bool json = false;
 };
 

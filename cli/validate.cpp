@@ -244,7 +244,8 @@ bool judge_opengl(const ValidationOptions& options) {
     if (v.findings[i].name.starts_with("light-shader-") || v.findings[i].plane == "capture") continue;
     v.findings[i].command = "trueshade" + options.command_line;
     if (!options.supposed.empty()) continue;
-    if (v.findings[i].together) v.findings[i].command = v.findings[i - 1].command;
+    const bool is_second = v.findings[i].together && !v.findings[i - 1].command.empty();
+    if (is_second) v.findings[i].command = v.findings[i - 1].command;
     v.findings[i].command += " --suppose " + v.findings[i].name;
   }
   activity->now("drawing it again");

@@ -75,6 +75,8 @@ std::string blind_spot_line(const Validation& validation);
 /// A finding in one line, and the pixel that proves it in another.
 std::string finding_line(const oracle::Finding& finding);
 std::string proof_line(const oracle::Finding& finding);
+/// Of a finding about a line of a light program how the line reads, and how it would have to read; else empty.
+std::vector<std::string> program_lines(const oracle::Finding& finding);
 
 /// What the command says: lines for people, or one JSON document.
 std::string validation_text(const Validation& validation);

@@ -134,6 +134,18 @@ std::string finding_line(const oracle::Finding& f) {
                                   : "");
 }
 
+std::vector<std::string> program_lines(const oracle::Finding& f) {
+  std::vector<std::string> lines;
+  if (f.it_reads.empty()) return lines;
+  constexpr size_t kMost = 400;  // characters of a line
+  const auto add = [&](const char* what, const std::string& text) {
+    lines.push_back(what + text.substr(0, kMost) + (text.size() > kMost ? "..." : ""));
+  };
+  add("it reads: ", f.it_reads);
+  if (!f.drawn_as.empty()) add("drawn as: ", f.drawn_as);
+  return lines;
+}
+
 std::string proof_line(const oracle::Finding& f) {
   if (f.proof.plane.empty()) return "no pixel of those looked at is explained";
   return "at " + std::to_string(f.proof.x) + ',' + std::to_string(f.proof.y) + ' ' + f.proof.plane + " is " +
@@ -339,13 +351,15 @@ std::string validation_text(const Validation& v) {
   if (v.is_diagnosed && !is_explained(v) && !is_told_by_quotient(v))
     lines += verdict_row("looks like", "no fault that is known");
   if (v.quotient) lines += quotient_text(*v.quotient);
-  for (const oracle::Finding& f : v.findings)
+  for (const oracle::Finding& f : v.findings) {
     lines += verdict_row(f.together  ? "and"
                          : f.tied    ? "or as well"
                          : f.partial ? "may be part"
                                      : "looks like",
-                         finding_line(f)) +
-             verdict_row("", proof_line(f)) + (f.command.empty() ? "" : verdict_row("", "try: " + f.command));
+                         finding_line(f));
+    for (const std::string& line : program_lines(f)) lines += verdict_row("", line);
+    lines += verdict_row("", proof_line(f)) + (f.command.empty() ? "" : verdict_row("", "try: " + f.command));
+  }
   return lines;
 }
 
@@ -380,8 +394,10 @@ std::string validation_json(const Validation& v) {
 void find_explanation(const Scene& scene, Validation& v, std::span<const std::string> supposed) {
   v.findings = oracle::diagnose(scene, v.pipeline, v.profile, v.capture, v.verdict.stages, supposed);
   constexpr double kWell = 0.95, kHardlyWrong = 0.05;
-  const bool is_told = is_explained(v) && v.findings[0].explained + v.findings[0].located > kWell &&
-                       v.findings[0].contradicted < kHardlyWrong;
+  size_t last = 0;  // of the faults that are the likeliest together
+  while (last + 1 < v.findings.size() && v.findings[last + 1].together) ++last;
+  const bool is_told = is_explained(v) && v.findings[last].explained + v.findings[last].located > kWell &&
+                       v.findings[last].contradicted < kHardlyWrong;
   if (is_told || !supposed.empty()) return;
   for (const oracle::StageVerdict& stage : v.verdict.stages)
     if (stage.stage == "lighting") v.quotient = oracle::light_quotient(scene, v.pipeline, v.profile, v.capture, stage);

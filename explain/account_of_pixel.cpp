@@ -117,6 +117,19 @@ std::vector<AccountValue> values_in_format(Format format, const StoredPixel& sto
 Account account_of(const ExplainedFrame& frame, const PixelHistory& history, Detail detail) {
   const FpScope fp;
   Account out("pixel", frame_title(frame, history));
+  const auto stored = [&]() -> Account& {
+    out.quantities.push_back({"stored",
+                              std::string(info(frame.pipeline.target).name) + ", R, G, B, A",
+                              values_in_format(frame.target.format, history.stored),
+                              true,
+                              {}});
+    return out;
+  };
+  if (detail == Detail::brief) {
+    add_summary(frame, history, out);
+    add_nonfinite(frame, history, out);
+    return stored();
+  }
   out.add("pixel", std::array{int64_t(history.pixel.x), int64_t(frame.pipeline.height - 1 - history.pixel.y)},
           "column and row from the top left");
   out.add("window", std::array{int64_t(history.pixel.x), int64_t(history.pixel.y)},
@@ -131,12 +144,7 @@ Account account_of(const ExplainedFrame& frame, const PixelHistory& history, Det
                                 "Target, draw by draw (docs/arithmetic.md, sections 7, 10 and 14)", detail);
   draws.add("value", values_of(frame.target, history.stored), "of the stored pixel as a shader reads it: R, G, B, A");
   out.parts.push_back(std::move(draws));
-  out.quantities.push_back({"stored",
-                            std::string(info(frame.pipeline.target).name) + ", R, G, B, A",
-                            values_in_format(frame.target.format, history.stored),
-                            true,
-                            {}});
-  return out;
+  return stored();
 }
 
 }  // namespace trueshade

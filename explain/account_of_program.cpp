@@ -3,10 +3,10 @@
 #include <cmath>
 #include <cstdio>
 #include <numeric>
-#include <string_view>
 
 #include "explain/account_parts.h"
 #include "explain/program_steps.h"
+#include "programs/edits/edit_text.h"
 
 namespace trueshade {
 namespace {
@@ -110,13 +110,7 @@ void add_lines(const ExplainedFrame& frame, const ProgramAtSurface& at, const No
 }  // namespace
 
 std::string source_line(const LightProgram& program, uint32_t line) {
-  std::string_view rest = program.text;
-  if (is_spirv(rest)) return {};
-  for (uint32_t i = 1; i < line && !rest.empty(); ++i)
-    rest.remove_prefix(std::min(rest.size(), std::min(rest.find('\n'), rest.size() - 1) + 1));
-  std::string_view text = rest.substr(0, rest.find_first_of("\r\n"));
-  text.remove_prefix(std::min(text.size(), text.find_first_not_of(" \t")));
-  return std::string(text);
+  return std::string(programs::source_line(program.text, line));
 }
 
 void add_program(const ExplainedFrame& frame, const LightTotal& total, Detail detail, Account& to) {

@@ -49,6 +49,7 @@ std::vector<AccountValue> values_in_format(Format format, const StoredPixel& sto
 
 /// How much of a history goes into its account.
 enum class Detail : uint8_t {
+  brief,  ///< what is seen, how many lights add to it, the stored pixel: no step on the way there
   usual,  ///< the 64 lights that add most, the 64 covering triangles drawn last; draws that change something
   all     ///< every covering triangle, every light and every draw
 };

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "explain/surface.h"
@@ -21,14 +22,18 @@ class ProgramAtSurface {
  public:
   /// Computes the nodes that depend on the surface alone. `pixel`: the inputs surface.pixel_x and surface.pixel_y.
   ProgramAtSurface(std::shared_ptr<const ProgramFrame> frame, const SurfacePlanes& surface, WindowPixel pixel);
+  /// The same frame and surface under an edited program, which has the inputs of the frame's.
+  ProgramAtSurface(const ProgramAtSurface& at, programs::Program edited);
 
   /// The program, which lives as long as this object.
-  const programs::Program& program() const { return frame_->executable().program; }
+  const programs::Program& program() const { return *program_; }
   /// Whether the surface's material is unlit: it shows its albedo, and no function of the program is run.
   bool is_unlit() const { return unlit_; }
 
   /// The values of all nodes for one light, by its index in the scene. Nodes that need the sum of the lights are 0.
   NodeBits at_light(size_t light) const;
+  /// What light() returns for each of these lights, R, G, B: the bits of at_light(), many lights at a time.
+  std::vector<std::array<float, 3>> terms(std::span<const uint32_t> lights) const;
   /// The values of all nodes once the lights are summed up. Nodes that depend on one light are 0.
   NodeBits at_sum(const std::array<float, 3>& sum) const;
 
@@ -46,9 +51,13 @@ class ProgramAtSurface {
   static float as_float(uint32_t bits);
   template <class Input>
   void compute(std::initializer_list<programs::Rate> rates, NodeBits& bits, Input input) const;
+  void compute_of_surface();
+  std::vector<bool> needed_by_light() const;
 
   std::shared_ptr<const ProgramFrame> frame_;
+  std::shared_ptr<const programs::Program> program_;
   std::vector<uint32_t> place_;  ///< of each input among those of its rate
+  std::vector<uint32_t> given_;  ///< the bits of each input of the frame and of the surface
   NodeBits of_surface_;          ///< constants and what depends on the surface alone
   bool unlit_;
 };

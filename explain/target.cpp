@@ -46,15 +46,30 @@ std::array<float, 4> received(const LightTotal& total, const std::array<float, 3
   return out;
 }
 
-/// What light `index` of the table adds to the surface: its distance, its term and its fate. Out of reach, where extent
-/// or falloff has ended, the term is 0 and the program is not asked.
-LightAtPixel light_at(const ExplainedFrame& frame, const LightTotal& total, size_t index) {
-  LightAtPixel at;
-  if (!in_reach(total.table->row[index], total.surface, at)) return at.fate = LightFate::out_of_reach, at;
-  at.term = total.program->output<3>(total.program->at_light(index), programs::kLightOutput);
-  for (float& value : at.term) value = one_nan(value);
-  if (at.term == std::array<float, 3>{}) at.fate = fate_without_light(frame.scene.lights[index], total.surface);
-  return at;
+/// Sets the terms of the lights that are in reach, and says that they add something, or give nothing.
+void set_terms(LightTotal& total) {
+  std::vector<uint32_t> reaching;
+  for (size_t i = 0; i < total.lights.size(); ++i)
+    if (total.lights[i].fate != LightFate::out_of_reach) reaching.push_back(uint32_t(i));
+  const std::vector<std::array<float, 3>> terms = total.program->terms(reaching);
+  for (size_t i = 0; i < reaching.size(); ++i) {
+    LightAtPixel& at = total.lights[reaching[i]];
+    for (size_t k = 0; k < 3; ++k) at.term[k] = one_nan(terms[i][k]);
+    at.fate = at.term == std::array<float, 3>{} ? LightFate::gives_nothing : LightFate::adds;
+  }
+}
+
+/// What each light of the table adds to the surface: its distance, its term and its fate. Out of reach, where extent or
+/// falloff has ended, the term is 0 and the program is not asked.
+void add_lights(const ExplainedFrame& frame, LightTotal& total) {
+  for (size_t i = 0; i < total.table->size(); ++i) {
+    LightAtPixel& at = total.lights.emplace_back();
+    if (!in_reach(total.table->row[i], total.surface, at)) at.fate = LightFate::out_of_reach;
+  }
+  set_terms(total);
+  for (size_t i = 0; i < total.lights.size(); ++i)
+    if (total.lights[i].fate == LightFate::gives_nothing)
+      total.lights[i].fate = fate_without_light(frame.scene.lights[i], total.surface);
 }
 
 /// What the target receives of the sum of the lights that add something, each as often as it counts.
@@ -74,10 +89,26 @@ LightTotal lit(const ExplainedFrame& frame, const FrameLights& lights, const Sur
   out.program = std::make_shared<ProgramAtSurface>(lights.program, surface, pixel);
   out.takes_albedo_alpha = lights.takes_albedo_alpha && !out.program->program().defines_finish;
   out.start = out.program->start();
-  if (!out.program->is_unlit())
-    for (size_t i = 0; i < lights.table.size(); ++i) out.lights.push_back(light_at(frame, out, i));
+  if (!out.program->is_unlit()) add_lights(frame, out);
   out.sum = summed(out, {});
   return out;
+}
+
+/// The same surface under the same lights by an edited program.
+LightTotal relit_total(const LightTotal& total, const programs::Program& edited) {
+  LightTotal out = total;
+  out.program = std::make_shared<ProgramAtSurface>(*total.program, edited);
+  out.start = out.program->start();
+  set_terms(out);
+  out.sum = summed(out, {});
+  return out;
+}
+
+/// Gives lights whose geometry does not cover the pixel their fate on the visible surface.
+void mark_undrawn(LitSurfaces& lit) {
+  for (size_t i = 0; i < lit.geometry.size() && i < lit.visible.lights.size(); ++i)
+    if (lit.geometry[i] == 0 && lit.visible.lights[i].fate == LightFate::adds)
+      lit.visible.lights[i].fate = LightFate::not_drawn;
 }
 
 /// What summed() returns, which is known already where each light counts once.
@@ -162,12 +193,20 @@ LitSurfaces lit_surfaces(const ExplainedFrame& frame, const PixelSurfaces& surfa
   out.covered = surfaces.covered;
   out.geometry = std::move(geometry);
   if (surfaces.covered) out.visible = lit(frame, frame.lights, surfaces.visible, surfaces.pixel);
-  for (size_t i = 0; i < out.geometry.size() && i < out.visible.lights.size(); ++i)
-    if (out.geometry[i] == 0 && out.visible.lights[i].fate == LightFate::adds)
-      out.visible.lights[i].fate = LightFate::not_drawn;
+  mark_undrawn(out);
   for (const SurfacePlanes& tied : surfaces.tied) out.tied.push_back(lit(frame, frame.lights, tied, surfaces.pixel));
   for (const SurfacePlanes& glass : surfaces.glass)
     out.glass.push_back(lit(frame, frame.glass_lights, glass, surfaces.pixel));
+  return out;
+}
+
+LitSurfaces relit(const LitSurfaces& lit, const programs::Program& edited) {
+  LitSurfaces out;
+  out.covered = lit.covered, out.geometry = lit.geometry;
+  if (lit.covered) out.visible = relit_total(lit.visible, edited);
+  mark_undrawn(out);
+  for (const LightTotal& tied : lit.tied) out.tied.push_back(relit_total(tied, edited));
+  for (const LightTotal& glass : lit.glass) out.glass.push_back(relit_total(glass, edited));
   return out;
 }
 

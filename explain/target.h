@@ -51,6 +51,10 @@ std::vector<uint32_t> geometry_at(const ExplainedFrame& frame, WindowPixel pixel
 ///   geometry: as geometry_at() returns it; a light with 0 becomes not_drawn on the visible surface
 LitSurfaces lit_surfaces(const ExplainedFrame& frame, const PixelSurfaces& surfaces, std::vector<uint32_t> geometry);
 
+/// The same surfaces under the same lights by an edited program of theirs. A light that adds nothing then has the fate
+/// gives_nothing, whatever the reason.
+LitSurfaces relit(const LitSurfaces& lit, const programs::Program& edited);
+
 /// One draw into the target: its source colour, and the pixel before and after.
 struct TargetDraw {
   std::string what;

@@ -66,6 +66,9 @@ trueshade_slow(10
   "diagnosis:Lights that are one to five thousandths too bright or reach too far are named in planes of halves"
   "gl:The same frames, replayed in OpenGL 4.5 and OpenGL ES 3.1, are judged without a violation")
 trueshade_slow(4
+  "programs:An edit is told as the line that makes the edited program"
+  "explain:A slip in a line of the light program is among the edits that make a pixel's value, under every strategy"
+  "judge:A slip in a line and a light that is missing besides are both named"
   "gl:lavapipe gives a program every field that we give it"
   "gl:lavapipe draws programs of every kind as we do"
   "gl:A light program's frame, replayed from its files alone, is the driver's own"

@@ -117,7 +117,8 @@ std::string inference_part(const oracle::Verdict& v) {
 /// The evidence, the rounding that stages follow, and what the target hides: a paragraph each.
 std::string remarks(const Validation& v) {
   std::string html;
-  for (const std::string& line : {v.verdict.evidence_line(), rounding_line(v.verdict), power_line(v.verdict), blind_spot_line(v)})
+  for (const std::string& line :
+       {v.verdict.evidence_line(), rounding_line(v.verdict), power_line(v.verdict), blind_spot_line(v)})
     if (!line.empty()) html += "<p>" + escaped(line) + ".</p>\n";
   return html;
 }
@@ -177,15 +178,18 @@ std::string heading(const Validation& v) {
 std::string diagnosis_part(const Validation& v) {
   if (v.findings.empty()) return "";
   std::string html = "<h2>What it looks like</h2>\n";
-  for (const oracle::Finding& f : v.findings)
+  for (const oracle::Finding& f : v.findings) {
+    std::string program;
+    for (const std::string& line : program_lines(f)) program += "<br><code>" + escaped(line) + "</code>";
     html += "<p>" +
             std::string(f.together  ? "And "
                         : f.tied    ? "Or as well "
                         : f.partial ? "May be part of it: "
                                     : "") +
-            escaped(finding_line(f)) + ".<br><span class=quiet>" + escaped(proof_line(f)) +
+            escaped(finding_line(f)) + "." + program + "<br><span class=quiet>" + escaped(proof_line(f)) +
             ".</span></p>\n" +
             (f.command.empty() ? "" : "<div class=command><code>" + escaped(f.command) + "</code></div>\n");
+  }
   return html;
 }
 

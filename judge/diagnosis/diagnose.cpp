@@ -5,6 +5,7 @@
 
 #include "core/json_number.h"
 #include "core/json_string.h"
+#include "judge/diagnosis/plain_program.h"
 #include "judge/diagnosis/program_search.h"
 #include "judge/diagnosis/supposed_faults.h"
 #include "judge/stages/aggregate.h"
@@ -105,6 +106,34 @@ std::unique_ptr<PictureCase> picture_of(const Shown& s, const PlaneFindings& pla
   return picture;
 }
 
+/// Judges a change of the light program with a light that is missing besides, by the whole sample. Where both together
+/// explain nine tenths of what is wrong, the two take the place of what single lines explain.
+void add_missing_light(const Shown& s, const PlaneFindings& planes, ProgramFindings& lines) {
+  constexpr double kBothExplain = 0.9;
+  const std::unique_ptr<PictureCase> picture = picture_of(s, planes);
+  const double changed = changed_pixels(*picture);
+  for (const SlipBesideLight& pair : lines.beside) {
+    const std::vector<std::string> name = {"light-missing=" + std::to_string(pair.light)};
+    const SupposedFaults missing = supposed_faults(name, s.scene);
+    PictureCase rest = *picture;
+    rest.draw_by(std::make_shared<const PlainProgram>(s.scene, s.pipeline, pair.drawn_by));
+    const double share =
+        changed_pixels(rest) / std::max(changed, 1.0);  // of what is wrong, that the light must explain
+    const std::vector<Finding> both = picture_findings(rest, missing.picture),
+                               alone = picture_findings(*picture, missing.picture);
+    if (both.empty()) continue;
+    Finding second = both[0];
+    second.explained = 1 - share * (1 - second.explained), second.left *= share;
+    if (!(second.explained - second.contradicted > kBothExplain)) continue;
+    second.changed = pair.slip.changed, second.together = second.proof.by_both = true;
+    second.alone = alone.empty() ? 0 : alone[0].explained;
+    Finding slip = pair.slip;
+    if (slip.proof.plane.empty()) slip.proof = second.proof;  // no pixel shows it by itself
+    lines.findings = {std::move(slip), std::move(second)};
+    return;
+  }
+}
+
 /// Whether one of the findings is that small floats are rounded by another rule than the pipeline's. It is no fault
 /// where the profile allows both rules.
 bool rounds_otherwise(std::span<const Finding> findings) {
@@ -156,6 +185,32 @@ std::vector<Finding> partial_last(std::vector<Finding> findings) {
   return whole;
 }
 
+/// Leaves out rivals of what explains all: findings about the same plane that explain less, with what is said together
+/// with them.
+std::vector<Finding> without_beaten(std::vector<Finding> findings) {
+  constexpr double kAll = 0.995, kLess = 0.02;
+  std::vector<Finding> out;
+  for (size_t from = 0; from < findings.size();) {
+    size_t end = from + 1;
+    while (end < findings.size() && findings[end].together) ++end;
+    const auto score = [](const Finding& f) { return f.explained + f.located - f.contradicted; };
+    const Finding& last = findings[end - 1];
+    const bool is_beaten = std::any_of(out.begin(), out.end(), [&](const Finding& f) {
+      return !f.partial && f.plane == last.plane && score(f) > kAll && score(last) < score(f) - kLess;
+    });
+    for (; from < end; ++from)
+      if (!is_beaten) out.push_back(std::move(findings[from]));
+  }
+  return out;
+}
+
+/// The members of a finding about a line of a light program; empty of others.
+std::string line_json(const Finding& f) {
+  if (f.line == 0) return {};
+  return ",\"line\":" + std::to_string(f.line) + ",\"it_reads\":" + json_string(f.it_reads) +
+         ",\"drawn_as\":" + json_string(f.drawn_as);
+}
+
 }  // namespace
 
 std::vector<Finding> diagnose(const Scene& scene, const Pipeline& asked, const Profile& profile, const Capture& capture,
@@ -176,9 +231,10 @@ std::vector<Finding> diagnose(const Scene& scene, const Pipeline& asked, const P
     planes = plane_findings(scene, pipeline, profile, capture, *surfaces, only.planes);
   std::vector<Finding> findings;
   const bool asks_lit = supposed.empty() || !only.picture.empty() || !only.glass.empty();
-  std::vector<Finding> lines;
+  ProgramFindings by_lines;
+  std::vector<Finding>& lines = by_lines.findings;
   if (pipeline.light_program.used() && lit != nullptr && supposed.empty())
-    lines = program_findings(scene, pipeline, profile, capture, *lit, most);
+    by_lines = program_findings(scene, pipeline, profile, capture, *lit, most);
   const bool told = !lines.empty() && !lines[0].fitted && lines[0].explained > 0.995 && lines[0].contradicted < 0.005;
   const auto findings_under = [&](const Pipeline& stored_so) {
     const Shown shown{scene, stored_so, profile, capture, *lit};
@@ -204,9 +260,10 @@ std::vector<Finding> diagnose(const Scene& scene, const Pipeline& asked, const P
       if (is_all || first_score(others) > first_score(findings)) findings = std::move(others);
     }
   }
+  if (!by_lines.beside.empty()) add_missing_light({scene, pipeline, profile, capture, *lit}, planes, by_lines);
   if (!lines.empty()) findings = best_of(std::move(lines), std::move(findings), most);
   findings = merged(std::move(planes.findings), std::move(findings), most);
-  return supposed.empty() ? partial_last(std::move(findings)) : findings;
+  return supposed.empty() ? without_beaten(partial_last(std::move(findings))) : findings;
 }
 
 std::vector<KnownFault> known_faults() {
@@ -228,19 +285,19 @@ std::string findings_json(std::span<const Finding> findings) {
   std::string json = "[";
   for (const Finding& f : findings) {
     if (json.size() > 1) json += ",";
-    json += "{\"name\":" + json_string(f.name) + ",\"plane\":" + json_string(f.plane) +
-            ",\"text\":" + json_string(f.text) + ",\"changed\":" + std::to_string(f.changed) +
-            ",\"explained\":" + json_in_nine_digits(f.explained) +
-            ",\"contradicted\":" + json_in_nine_digits(f.contradicted) +
-            ",\"together\":" + (f.together ? "true" : "false") + ",\"alone\":" + json_in_nine_digits(f.alone) +
-            ",\"located\":" + json_in_nine_digits(f.located) + ",\"left\":" + json_in_nine_digits(f.left) +
-            ",\"tied\":" + (f.tied ? "true" : "false") + ",\"proof\":{\"x\":" + std::to_string(f.proof.x) +
-            ",\"y\":" + std::to_string(f.proof.y) + ",\"plane\":" + json_string(f.proof.plane) +
-            ",\"given\":" + json_in_nine_digits(f.proof.given) + ",\"right\":" + json_in_nine_digits(f.proof.right) +
-            ",\"predicted\":" + json_in_nine_digits(f.proof.predicted) +
-            ",\"by_both\":" + (f.proof.by_both ? "true" : "false") +
-            ",\"anything\":" + (f.proof.anything ? "true" : "false") +
-            "},\"partial\":" + (f.partial ? "true" : "false") + ",\"command\":" + json_string(f.command) + "}";
+    json +=
+        "{\"name\":" + json_string(f.name) + ",\"plane\":" + json_string(f.plane) + ",\"text\":" + json_string(f.text) +
+        ",\"changed\":" + std::to_string(f.changed) + ",\"explained\":" + json_in_nine_digits(f.explained) +
+        ",\"contradicted\":" + json_in_nine_digits(f.contradicted) +
+        ",\"together\":" + (f.together ? "true" : "false") + ",\"alone\":" + json_in_nine_digits(f.alone) +
+        ",\"located\":" + json_in_nine_digits(f.located) + ",\"left\":" + json_in_nine_digits(f.left) +
+        ",\"tied\":" + (f.tied ? "true" : "false") + ",\"proof\":{\"x\":" + std::to_string(f.proof.x) +
+        ",\"y\":" + std::to_string(f.proof.y) + ",\"plane\":" + json_string(f.proof.plane) +
+        ",\"given\":" + json_in_nine_digits(f.proof.given) + ",\"right\":" + json_in_nine_digits(f.proof.right) +
+        ",\"predicted\":" + json_in_nine_digits(f.proof.predicted) +
+        ",\"by_both\":" + (f.proof.by_both ? "true" : "false") +
+        ",\"anything\":" + (f.proof.anything ? "true" : "false") + "},\"partial\":" + (f.partial ? "true" : "false") +
+        line_json(f) + ",\"command\":" + json_string(f.command) + "}";
   }
   return json + "]";
 }

@@ -39,7 +39,10 @@ struct Finding {
   bool tied = false;  ///< no pixel tells it from the finding before it
   bool partial = false;  ///< it leaves so much unexplained that it is no explanation: it may be part of it
   Proof proof;
-  std::string command;  ///< that shows it: of who asked; diagnose() leaves it empty
+  uint32_t line = 0;     ///< of a light program, from 1, as the next two; 0: the finding is about no line
+  std::string it_reads;  ///< the line's text; empty of SPIR-V
+  std::string drawn_as;  ///< how the line would have to read to draw the picture; empty where that is not found
+  std::string command;   ///< that shows it: of who asked; diagnose() leaves it empty
 };
 
 /// The faults that explain a capture which does not pass, at most `most`, the likeliest first; those that are only
@@ -62,7 +65,8 @@ struct KnownFault {
 std::vector<KnownFault> known_faults();
 
 /// Findings as JSON: an array of {name, plane, text, changed, explained, contradicted, together, alone, located, left,
-/// tied, proof {x, y, plane, given, right, predicted, by_both, anything}, partial, command}.
+/// tied, proof {x, y, plane, given, right, predicted, by_both, anything}, partial, line, it_reads, drawn_as, command};
+/// the last but one three of findings about a line of a light program alone.
 std::string findings_json(std::span<const Finding> findings);
 
 }  // namespace trueshade::oracle

@@ -127,6 +127,12 @@ class PictureCase {
     expected_ = std::move(expected), wrong_ = wrong;
     known_ = std::make_shared<KnownPixels>();
   }
+  /// From now on right() draws by this light program. Drops the pixels that right() has kept. No other thread may use
+  /// this object meanwhile.
+  void draw_by(std::shared_ptr<const PlainProgram> program) {
+    right_.program = std::move(program);
+    known_ = std::make_shared<KnownPixels>();
+  }
   /// Which pixel of the drawn picture is shown at (x, y) where the picture is moved by `move`; beyond its edge, the
   /// edge's pixel.
   std::array<int, 2> source(const Move& move, int x, int y) const;

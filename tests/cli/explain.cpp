@@ -1,4 +1,5 @@
 // `trueshade explain`: the last line is the pixel that render stores; what it refuses.
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 
@@ -6,6 +7,7 @@
 #include "tests/cli/drawn_capture.h"
 #include "tests/cli/refused.h"
 #include "tests/file_contents.h"
+#include "tests/text_parts.h"
 
 namespace trueshade {
 namespace {
@@ -304,6 +306,61 @@ TEST_CASE("explain says whether another picture's value is legal, and what makes
   CHECK(of_same.out.find("EXACT") != std::string::npos);
   CHECK(of_other.out.find("no specular term: exactly what the picture has") != std::string::npos);
   CHECK(of_other.out.find("drawn_by   preset light-volumes") != std::string::npos);
+}
+
+/// A light whose window is a square of d / range, or of its square.
+std::string windowed_light(const std::string& square) {
+  return "vec3 light(Surface s, Light l, View v) {\n"
+         "  vec3 d = l.position - s.position;\n"
+         "  float part = dot(d, d) / (l.range * l.range), window = clamp(1.0 - " +
+         square +
+         ", 0.0, 1.0);\n  return l.color * s.albedo.rgb * window * max(dot(s.normal, normalize(d)), 0.0);\n}\n";
+}
+
+TEST_CASE(
+    "explain names the line of a light program that another picture was drawn by, in brief with the causes alone") {
+  const ScratchFolder folder;
+  folder.write("ours.glsl", windowed_light("part * part")), folder.write("theirs.glsl", windowed_light("part"));
+  const auto with = [&](Arguments words, const char* program) {
+    words.insert(words.end(), {"builtin:cornell", "--size", "64x48", "--light-shader", program, "--target", "rgba16f"});
+    return run_command(words, folder.path(""));
+  };
+  REQUIRE(with({"render", "-q", "-o", "theirs.exr"}, "theirs.glsl").exit_code == 0);
+  const Arguments asked = {"explain", "--pixel", "30,30", "--against", "theirs.exr"};
+  const auto also = [&](std::initializer_list<const char*> options) {
+    Arguments words = asked;
+    words.insert(words.end(), options.begin(), options.end());
+    return with(words, "ours.glsl");
+  };
+  const Outcome whole = also({}), brief = also({"--brief"});
+  const std::string reads =
+                        "float part = dot(d, d) / (l.range * l.range), window = clamp(1.0 - part * part, 0.0, 1.0);",
+                    drawn = "float part = dot(d, d) / (l.range * l.range), window = clamp(1.0 - part, 0.0, 1.0);";
+  for (const Outcome& told : {whole, brief}) {
+    INFO(told.out << told.err);
+    CHECK(
+        has(told.out, "line 3 of ours.glsl has a value where it should have its square: exactly what the picture has"));
+    CHECK(has(told.out, "it_reads   " + reads + "\n"));
+    CHECK(has(told.out, "drawn_as   " + drawn + "\n"));
+    CHECK(has(told.out, "  class      VIOLATION"));
+    CHECK(has(told.out, "  legal_R    "));
+    CHECK(has(told.out, "  seen       "));
+    CHECK(has(told.out, " edits of lines that were tried"));
+  }
+  CHECK(has(whole.out, "\n  Triangles"));
+  CHECK_FALSE(has(brief.out, "\n  Triangles"));
+  CHECK(std::count(brief.out.begin(), brief.out.end(), '\n') < 35);
+  CHECK(last_line(brief.out) == last_line(whole.out));
+  const auto document = nlohmann::json::parse(also({"--brief", "--json"}).out);
+  CHECK(document["values"].contains("seen"));
+  CHECK(document["values"].contains("stored"));
+  REQUIRE(document["parts"].size() == 1);
+  CHECK(document["parts"][0]["step"] == "against");
+  const auto& causes = document["parts"][0]["parts"];
+  CHECK(std::any_of(causes.begin(), causes.end(), [&](const auto& cause) {
+    return cause["step"] == "edit" && cause["values"]["drawn_as"] == drawn && cause["values"]["it_reads"] == reads;
+  }));
+  check_refused(also({"--brief", "--all"}), 2, "--brief and --all exclude each other");
 }
 
 TEST_CASE("explain refuses what names no pixel and what is no picture, in one line") {

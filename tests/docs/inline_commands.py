@@ -71,7 +71,7 @@ def is_there(command, source):
     first, second = command.split()[:2]
     if first != "./check":
         return (source / first).is_file()
-    modes = re.findall(r"^  ([a-z][a-z0-9 |]*)\)", (source / "check").read_text().split("case $mode in\n")[-1], re.M)
+    modes = re.findall(r"^  ([a-z][a-z0-9 |-]*)\)", (source / "check").read_text().split("case $mode in\n")[-1], re.M)
     return second in {mode for names in modes for mode in names.split(" | ")}
 
 

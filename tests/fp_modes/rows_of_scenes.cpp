@@ -227,12 +227,14 @@ void call_light_types(Bytes& out) {
     out.put(name_of(type));
     out.put(row_of(type).is_aimed);
     out.put(is_placed(type) && has_area(type));
+    out.put(is_ambient(type) || is_directional(type) || is_spot(type));
     out.put(stated_extent(type, LightVolumes{}));
   }
   Light light;
   light.type = LightType::rectangle, light.right = {0.1f, 0.2f, 1e-40f}, light.up = {0.2f, -0.1f, 0.7f};
   aim(light);
   out.put_light(light);
+  out.put_light(ambient_light({0.1f, 1e-40f, 0.7f}));
 }
 
 void call_builtin(Bytes& out) {
@@ -255,7 +257,8 @@ void call_mesh(Bytes& out) {
 constexpr Row kSceneRows[] = {
     {"scenes/builtin/builtin.h", "builtin_scene builtin_scenes", call_builtin},
     {"scenes/camera.h", "clip_from_world clip_from_view view_from_world product view_axis", call_camera},
-    {"scenes/light.h", "row_of name_of is_placed has_area", call_light_types},
+    {"scenes/light.h", "row_of name_of is_placed has_area is_ambient is_directional is_spot ambient_light",
+     call_light_types},
     {"scenes/pipeline/pipeline.h", "stated_extent", call_light_types},
     {"scenes/mesh.h", "vertex_count triangle_count has_uv has_color has_tangents uv_set", call_mesh},
     {"scenes/placement.h", "world_from_object copied turned turn_about unit mirrors", call_placements},

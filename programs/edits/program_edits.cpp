@@ -1,4 +1,4 @@
-#include "judge/diagnosis/program_edits.h"
+#include "programs/edits/program_edits.h"
 
 #include <algorithm>
 #include <bit>
@@ -6,24 +6,16 @@
 #include <map>
 #include <tuple>
 
-namespace trueshade::oracle {
+namespace trueshade::programs {
 
 namespace {
-
-using programs::kNoNode;
-using programs::NodeId;
-using programs::Op;
-using programs::Program;
-using programs::ProgramNode;
-using programs::Rate;
-using programs::Type;
 
 constexpr size_t kMostSteps = 300;  // of a program whose operands are tried: they are the square of these
 
 /// The steps that light() depends on.
 std::vector<bool> needed_by_light(const Program& program) {
   std::vector<bool> needed(program.nodes.size(), false);
-  for (int i = programs::kLightOutput; i < programs::kReachesOutput; ++i) needed[program.output[size_t(i)]] = true;
+  for (int i = kLightOutput; i < kReachesOutput; ++i) needed[program.output[size_t(i)]] = true;
   for (NodeId id = NodeId(needed.size()); id-- > 0;)
     if (needed[id])
       for (const NodeId operand : program.nodes[id].operands()) needed[operand] = true;
@@ -96,7 +88,7 @@ class EditList {
         alone(0, "leaves out what it should subtract");
         return alone(1, "leaves out what it should subtract from");
       case Op::f_mul:
-        if (a == b) return alone(0, "takes a value for its square");
+        if (a == b) return alone(0, "has a value where it should have its square");
         alone(0, "leaves out the second factor of a product");
         alone(1, "leaves out the first factor of a product");
         return other(Op::f_div, "divides where it should multiply");
@@ -149,15 +141,21 @@ class EditList {
     }
   }
 
+  /// A product of a value with itself, whose root says nothing new.
+  bool is_square(NodeId id) const { return at(id).op == Op::f_mul && at(id).operand[0] == at(id).operand[1]; }
+
   void of_value() {
+    constexpr const char *kSquare = "has the square of a value where it should have the value",
+                         *kRoot = "has the root of a value where it should have the value";
     if (first().type != Type::f32 || first().op == Op::select || nodes_.size() > 1) return;
-    add(ProgramChange::square, "has the square of a value where it should have the value");
-    add(ProgramChange::root, "has the root of a value where it should have the value");
+    if (first().op != Op::f_sqrt) add(ProgramChange::square, kSquare);
+    if (!is_square(nodes_[0])) add(ProgramChange::root, kRoot);
     for (size_t k = 0; k < first().operands().size(); ++k) {
-      if (at(first().operand[k]).op == Op::constant || first().operand[0] == first().operand[1]) continue;
+      const NodeId operand = first().operand[k];
+      if (at(operand).op == Op::constant || first().operand[0] == first().operand[1]) continue;
       if (info(first().op).operand[k] != Type::f32) continue;
-      add(ProgramChange::square_of_operand, "has the square of a value where it should have the value").operand = k;
-      add(ProgramChange::root_of_operand, "has the root of a value where it should have the value").operand = k;
+      if (at(operand).op != Op::f_sqrt) add(ProgramChange::square_of_operand, kSquare).operand = k;
+      if (!is_square(operand)) add(ProgramChange::root_of_operand, kRoot).operand = k;
     }
   }
 
@@ -319,4 +317,4 @@ class EditList {
 
 std::vector<ProgramEdit> program_edits(const Program& program) { return EditList(program).all(); }
 
-}  // namespace trueshade::oracle
+}  // namespace trueshade::programs

@@ -5,7 +5,7 @@
 
 #include "programs/values/program.h"
 
-namespace trueshade::oracle {
+namespace trueshade::programs {
 
 enum class ProgramChange : uint8_t {
   other_operation,     ///< `op` instead
@@ -34,10 +34,10 @@ inline constexpr int kProductDepth = 6;
 /// One mistake, made in all nodes that one step of the source became, such as the components of a vector.
 struct ProgramEdit {
   ProgramChange change = ProgramChange::other_operation;
-  std::vector<programs::NodeId> nodes;   ///< ascending
-  std::vector<programs::NodeId> others;  ///< other_operand, times_other, over_other: for each node
+  std::vector<NodeId> nodes;   ///< ascending
+  std::vector<NodeId> others;  ///< other_operand, times_other, over_other: for each node
   size_t operand = 0;
-  programs::Op op = programs::Op::f_add;
+  Op op = Op::f_add;
   double number = 0;          ///< the number that `change` uses
   bool fitted = false;        ///< the number is to be fitted; until then it is the right one
   bool gates = false;         ///< factor_of_one_term: the other term is 0 where the factor is
@@ -50,9 +50,9 @@ struct ProgramEdit {
 /// of the parameters, and of the albedo. In this order: an operation left out or confused, parameters, constants,
 /// squares and roots, albedo's encoding, factors of one term, further factors, a number as a factor, other operands.
 /// Numbers are left to be fitted. Programs of more than 300 steps have no further factors and other operands.
-std::vector<ProgramEdit> program_edits(const programs::Program& program);
+std::vector<ProgramEdit> program_edits(const Program& program);
 
 /// A copy of the program with one of the changes of program_edits() made.
-programs::Program edited(const programs::Program& program, const ProgramEdit& edit);
+Program edited(const Program& program, const ProgramEdit& edit);
 
-}  // namespace trueshade::oracle
+}  // namespace trueshade::programs

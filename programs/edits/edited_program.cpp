@@ -1,18 +1,11 @@
 #include <algorithm>
 #include <bit>
 
-#include "judge/diagnosis/program_edits.h"
+#include "programs/edits/program_edits.h"
 
-namespace trueshade::oracle {
+namespace trueshade::programs {
 
 namespace {
-
-using programs::kNoNode;
-using programs::NodeId;
-using programs::Op;
-using programs::Program;
-using programs::ProgramNode;
-using programs::Type;
 
 /// Whether a product of few factors has the sum as one.
 bool leads_to(const Program& program, NodeId id, NodeId sum, int depth = kProductDepth) {
@@ -149,4 +142,4 @@ Program edited(const Program& program, const ProgramEdit& edit) {
   return out;
 }
 
-}  // namespace trueshade::oracle
+}  // namespace trueshade::programs
