@@ -1,4 +1,5 @@
 // Preloaded: malloc() and its kin fail for good after as many calls as TRUESHADE_ALLOCATIONS says.
+#include <dlfcn.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -26,6 +27,15 @@ bool fails() {
   left = 0;  // several threads may have counted below it
   errno = ENOMEM;
   return true;
+}
+
+/// A dlopen() that fails keeps a record of why. Where there is no memory for the first record of a thread, glibc 2.36
+/// writes through a null pointer (dlfcn/dlerror.c), which says nothing of the command: the first thread, in which
+/// oneTBB looks for libraries, has its record before the first call is counted.
+__attribute__((constructor)) void have_a_record_of_dlopen() {
+  known = true, left = -1;
+  dlopen("/dev/null/none", RTLD_LAZY);
+  known = false;
 }
 
 }  // namespace

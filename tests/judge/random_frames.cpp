@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <numeric>
 
 #include "core/error.h"
 #include "judge/bounds/profile_file.h"
@@ -78,8 +79,8 @@ class FrameTrial {
     std::printf(
         "random frames by %s under %s, theme %d: %d, not drawn %d, alarms %d; of the lit pixels %.3f %% exact, "
         "%.3f %% undefined\n",
-        asked_.drawer.c_str(), profile_.name.c_str(), int(asked_.theme), asked_.count, refused, alarms_, share(exact_),
-        share(undefined_));
+        asked_.drawer.c_str(), profile_.name.c_str(), int(asked_.theme), asked_.count, refused, alarms_,
+        100 - share(others_), share(undefined_));
     for (const auto& [why, count] : refused_) std::printf("  not drawn %d: %s\n", count, why.c_str());
     std::fflush(stdout);
     CHECK(alarms_ == 0);
@@ -103,7 +104,8 @@ class FrameTrial {
     for (const StageVerdict& stage : v.stages)
       if (stage.stage == "lighting")
         covered_ += stage.covered, undefined_ += stage.count(PixelClass::undefined),
-            exact_ += stage.count(PixelClass::exact);
+            others_ +=
+            std::accumulate(stage.counts.begin(), stage.counts.end(), uint64_t(0)) - stage.count(PixelClass::exact);
     if (v.violations() == 0 && !v.convicted()) return;
     alarm(seed, frame, options.steps || options.objects ? "draw by draw" : "as a file", reason_of(v));
   }
@@ -119,7 +121,7 @@ class FrameTrial {
   Profile profile_;
   std::map<std::string, int> refused_;  ///< by what is in the way
   int alarms_ = 0;
-  uint64_t covered_ = 0, undefined_ = 0, exact_ = 0;  ///< pixels of the stage of the lights
+  uint64_t covered_ = 0, undefined_ = 0, others_ = 0;  ///< pixels of the stage of the lights
 };
 
 }  // namespace
