@@ -25,7 +25,7 @@ struct Timing {
 };
 
 struct ContestRules {
-  int rounds = 15;            ///< at most
+  int rounds = 100;           ///< at most
   double budget_ms = 2500.0;  ///< of one contender: who has used it up sits out the rounds that are left
 };
 

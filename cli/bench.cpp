@@ -3,6 +3,7 @@
 #include <malloc.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -230,6 +231,10 @@ void bench(const BenchOptions& options) {
   const bool json_printed = options.json_file == "-";
   const std::vector<BenchOptions> rows = rows_of(options);
   for (const BenchOptions& row : rows) check_pipeline(options_of(row));
+  for (const BenchOptions& row : rows)  // files that are missing are told before the first scene is timed
+    for (const std::string& scene : row.scenes)
+      if (!scene.starts_with("builtin:") && scene.find('.') != std::string::npos && !std::filesystem::exists(scene))
+        throw Error(ErrorKind::io, scene, "No such file or directory", "name a scene");
   for (const auto& file : {options.json_file, options.report})
     if (file && *file != "-") check_writable(*file);
   BenchResult result;

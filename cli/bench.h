@@ -94,7 +94,7 @@ std::vector<Score> scores(const BenchResult& bench);
 std::string scores_text(const BenchResult& bench);
 std::string scores_json(const BenchResult& bench);
 
-/// How often frames are drawn: up to 15 times within 2.5 s a contender, unless options say otherwise.
+/// How often frames are drawn: up to 100 times within 2.5 s a contender, unless options say otherwise.
 ContestRules contest_rules(const BenchOptions& options);
 
 /// Compares the results in options.scenes, if they are results: whether they are.

@@ -1,4 +1,5 @@
-// `bench A.json B.json`: two results of bench, of two machines or two commits.
+// `bench A.json B.json`: two results of bench, of two machines or two commits. `bench A1.json B1.json A2.json B2.json
+// ...`: several runs of each, in turn.
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -20,10 +21,11 @@ namespace {
 
 constexpr uint64_t kMostBytes = uint64_t(64) << 20;
 constexpr size_t kMostFrames = 500;   ///< of a row
+constexpr size_t kLeastTimes = 5;     ///< of a row, frames of one run or medians of several
 constexpr double kConfidence = 0.99;  ///< of each row's interval
-/// Runs of one program differ too, by where memory lies and what the machine did before, which frames of one run do not
-/// show: smaller differences are called none.
-constexpr double kBetweenRuns = 1.03;
+/// Runs of one program differ too, by where memory lies and what the machine does, which frames of one run do not show.
+/// Where there is one run a side, smaller differences are called none.
+constexpr double kBetweenRuns = 1.1;
 
 /// Who drew what.
 struct RowName {
@@ -39,11 +41,18 @@ struct Row {
   double median() const { return ms[ms.size() / 2]; }
 };
 
+/// Something that may differ between two machines or builds, in a word, and what it is.
+struct MachineFact {
+  std::string name, value;
+};
+
 struct Result {
   std::string file, about;
+  std::vector<MachineFact> facts;
   std::vector<std::string> reasons;
   std::vector<Row> rows;
   std::optional<std::pair<int, double>> score;  ///< of which standard
+  int runs = 1;                                 ///< of several, the times of a row are the medians of each
 };
 
 enum class Verdict { none, slower, faster, too_few, busy };
@@ -58,10 +67,15 @@ struct ComparedRow {
   bool is_same_picture;
 };
 
-Verdict verdict_of(const RatioInterval& r) {
+/// The ratio beyond which rows differ, where the interval holds it whole.
+double least_difference(const Result& before, const Result& after) {
+  return before.runs > 1 && after.runs > 1 ? 1.0 : kBetweenRuns;
+}
+
+Verdict verdict_of(const RatioInterval& r, double least) {
   if (r.low == 0) return Verdict::too_few;
-  if (r.low > kBetweenRuns) return Verdict::slower;
-  return r.high < 1 / kBetweenRuns ? Verdict::faster : Verdict::none;
+  if (r.low > least) return Verdict::slower;
+  return r.high < 1 / least ? Verdict::faster : Verdict::none;
 }
 
 std::vector<double> times_of(const json::Node& row, const std::string& file) {
@@ -90,6 +104,13 @@ Result result_of(const json::Value& value, const std::string& file) {
                  std::to_string(root.member("threads").integer(1, 1 << 20)) +
                  (root.member("threads").integer(1, 1 << 20) == 1 ? " thread" : " threads");
   if (const auto date = machine.find("date")) result.about += "; " + date->string();
+  result.facts = {{"the CPU", text_in(machine, "cpu")},
+                  {"cores", std::to_string(machine.member("cores").integer(1, 1 << 20))},
+                  {"threads", std::to_string(root.member("threads").integer(1, 1 << 20))},
+                  {"the SIMD target", text_in(root, "simd")}};
+  for (const std::string_view key : {"os", "compiler", "opengl"})
+    if (const auto found = machine.find(key)) result.facts.push_back({std::string(key), found->string()});
+  result.facts.push_back({"the commit", text_in(root, "commit")});
   if (const auto reasons = root.find("not_to_be_quoted"))
     for (size_t i = 0, count = reasons->array(0, 1000).size(); i < count; ++i)
       result.reasons.push_back(reasons->element(i).string());
@@ -130,6 +151,38 @@ std::optional<json::Value> bench_result(const std::string& file) {
   return value;
 }
 
+/// Several runs as one result: of each row that all have, the medians.
+Result of_runs(const std::vector<Result>& runs) {
+  Result all = runs.front();
+  if (runs.size() == 1) return all;
+  all.rows.clear(), all.score.reset();
+  all.runs = int(runs.size());
+  for (size_t i = 1; i < runs.size(); ++i) {
+    all.file += ", " + runs[i].file;
+    all.reasons.insert(all.reasons.end(), runs[i].reasons.begin(), runs[i].reasons.end());
+  }
+  for (const Row& row : runs.front().rows) {
+    Row medians{row.name, row.hash, {}};
+    for (const Result& run : runs)
+      for (const Row& other : run.rows)
+        if (other.name == row.name && other.hash == row.hash) medians.ms.push_back(other.median());
+    std::sort(medians.ms.begin(), medians.ms.end());
+    if (medians.ms.size() == runs.size()) all.rows.push_back(std::move(medians));
+  }
+  return all;
+}
+
+/// "cores (1 and 2), threads (1 and 2)": in what two results differ besides their times; empty: in nothing that is
+/// known.
+std::string differing_facts(const Result& before, const Result& after) {
+  std::string text;
+  for (const MachineFact& fact : before.facts)
+    for (const MachineFact& other : after.facts)
+      if (other.name == fact.name && other.value != fact.value)
+        text += (text.empty() ? "" : ", ") + fact.name + " (" + fact.value + " and " + other.value + ")";
+  return text;
+}
+
 struct Comparison {
   Result before, after;
   std::vector<ComparedRow> rows;
@@ -148,7 +201,9 @@ Comparison compared(Result before, Result after) {
     }
     const Row& now = *other->second;
     const RatioInterval ratio = ratio_interval(row.ms, now.ms, kConfidence);
-    Verdict verdict = verdict_of(ratio);
+    Verdict verdict = std::min(row.ms.size(), now.ms.size()) < kLeastTimes
+                          ? Verdict::too_few
+                          : verdict_of(ratio, least_difference(c.before, c.after));
     const bool differs = verdict == Verdict::slower || verdict == Verdict::faster;
     if (differs && !(c.before.reasons.empty() && c.after.reasons.empty())) verdict = Verdict::busy;
     c.rows.push_back({row.name, row.median(), now.median(), ratio, verdict, row.hash == now.hash});
@@ -156,6 +211,9 @@ Comparison compared(Result before, Result after) {
   }
   for (const Row& row : c.after.rows)
     if (others.contains(row.name)) c.lonely.emplace_back(c.after.file, row.name);
+  if (c.rows.empty())
+    throw Error(ErrorKind::bad_input, c.before.file + " and " + c.after.file, "no row is in both of them",
+                "compare results of the same scenes, sizes and presets");
   return c;
 }
 
@@ -169,6 +227,8 @@ std::string result_text(const char* letter, const Result& result) {
 
 std::string comparison_text(const Comparison& c) {
   std::string text = result_text("A", c.before) + result_text("B", c.after), scene;
+  if (const std::string differences = differing_facts(c.before, c.after); !differences.empty())
+    text += "A and B differ in " + differences + '\n';
   size_t differing = 0;
   for (const ComparedRow& row : c.rows) {
     if (row.name.scene != scene) {
@@ -190,14 +250,20 @@ std::string comparison_text(const Comparison& c) {
     text += "\nstandard " + std::to_string(c.before.score->first) + ": scores " +
             formatted(c.before.score->second, "%.1f and ") + formatted(c.after.score->second, "%.1f, ") +
             formatted(c.after.score->second / c.before.score->second, "B's is %.3f times A's\n");
+  else if (c.before.score && c.after.score)
+    text += "\nscores are not compared: A's is of standard " + std::to_string(c.before.score->first) +
+            ", B's of standard " + std::to_string(c.after.score->first) + '\n';
+  const double least = least_difference(c.before, c.after);
   text += '\n' + std::to_string(differing) + " of " + std::to_string(c.rows.size()) +
-          " rows differ beyond noise: with " + formatted(100 * kConfidence, "%.0f") + " % confidence by more than " +
-          formatted(100 * (kBetweenRuns - 1), "%.0f %%");
-  const bool is_busy = !c.before.reasons.empty() || !c.after.reasons.empty();
-  return text + (is_busy
-                     ? " from frame to frame,\nwhich tells nothing of the programs: what else the machines did may be "
-                       "the cause (not to be quoted, above)\n"
-                     : "\n");
+          " rows differ beyond noise: with " + formatted(100 * kConfidence, "%.0f") + " % confidence" +
+          (least > 1 ? formatted(100 * (least - 1), " by more than %.0f %%") : " from run to run") + '\n';
+  if (!c.before.reasons.empty() || !c.after.reasons.empty())
+    return text +
+           "which tells nothing of the programs: what else the machines did may be the cause (not to be quoted, "
+           "above)\n";
+  return text + (least > 1 ? "Frames of one run a side do not show how runs differ: five runs a side, in turn, do "
+                             "(bench A1.json B1.json A2.json B2.json ...)\n"
+                           : "");
 }
 
 std::string result_json(const Result& result) {
@@ -221,7 +287,9 @@ std::string comparison_json(const Comparison& c) {
     lonely.add_raw(JsonObject().put("file", file).put("scene", row.scene).put("who", row.who).text());
   JsonObject json;
   json.put_raw("a", result_json(c.before)).put_raw("b", result_json(c.after));
-  json.put("confidence", kConfidence).put("between_runs", kBetweenRuns).put_raw("rows", rows.text());
+  json.put("confidence", kConfidence).put("between_runs", least_difference(c.before, c.after));
+  json.put("runs_a", c.before.runs).put("runs_b", c.after.runs).put("differ_in", differing_facts(c.before, c.after));
+  json.put_raw("rows", rows.text());
   if (have_scores(c)) json.put("score_ratio", c.after.score->second / c.before.score->second);
   return json.put_raw("only_one_has", lonely.text()).text() + '\n';
 }
@@ -244,9 +312,9 @@ bool compared_results(const BenchOptions& options) {
   if (!other.empty())
     throw Error(ErrorKind::bad_input, other, "this is no result of bench, and " + results.front().first + " is one",
                 "name two files that `trueshade bench --json FILE` wrote");
-  if (results.size() != 2)
+  if (results.size() % 2 != 0)
     throw usage("SCENE", "results of bench are compared by twos, and here are " + std::to_string(results.size()),
-                "name two files that `trueshade bench --json FILE` wrote");
+                "name files that `trueshade bench --json FILE` wrote: A.json B.json, or runs of each in turn");
   for (const auto& [name, is_given] : {std::pair{"-o", options.report.has_value()},
                                        {"--against", !options.against.empty()},
                                        {"--moving", options.moving},
@@ -256,8 +324,9 @@ bool compared_results(const BenchOptions& options) {
                                        {"--strategy", options.strategy.has_value()},
                                        {"--simd", options.simd != "best"}})
     if (is_given) throw usage(name, "two results are compared, and nothing is drawn", "leave it out");
-  const Comparison c =
-      compared(result_of(results[0].second, results[0].first), result_of(results[1].second, results[1].first));
+  std::vector<Result> sides[2];
+  for (size_t i = 0; i < results.size(); ++i) sides[i % 2].push_back(result_of(results[i].second, results[i].first));
+  const Comparison c = compared(of_runs(sides[0]), of_runs(sides[1]));
   if (options.json_file != "-") print(comparison_text(c));
   if (!options.json_file) return true;
   const std::string json = comparison_json(c);

@@ -67,7 +67,12 @@ std::string scores_text(const BenchResult& bench) {
     name.resize(std::max(name.size(), size_t(8)), ' ');
     text += "  " + name + formatted(score.value, "%8.1f") + '\n';
   }
-  return text + "  score   " + formatted(all.front().value, "%8.1f") + ", that of " + all.front().simd + '\n';
+  const size_t reasons = bench.all_reasons().size();
+  const std::string quoted = reasons == 0 ? ""
+                             : reasons == 1
+                                 ? " (not to be quoted: a reason is above or below)"
+                                 : " (not to be quoted: " + std::to_string(reasons) + " reasons are above or below)";
+  return text + "  score   " + formatted(all.front().value, "%8.1f") + ", that of " + all.front().simd + quoted + '\n';
 }
 
 std::string scores_json(const BenchResult& bench) {

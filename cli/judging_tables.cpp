@@ -100,7 +100,7 @@ CommandTable probe_table(ProbeOptions& options) {
 
 CommandTable bench_table(BenchOptions& options) {
   CommandTable table{
-      "bench", "Time frames, in turn with others that draw the same: up to 15 of each, within some 2.5 s a contender"};
+      "bench", "Time frames, in turn with others that draw the same: up to 100 of each, within some 2.5 s a contender"};
   add_values(table, "SCENE", "SCENE", options.scenes,
              "Scenes as for render; without any builtin:city, rabbits, sphere and red. Or two files that --json has "
              "written, to compare them");

@@ -32,7 +32,7 @@ TEST_CASE("bench times the frame that render draws, beside Embree, and writes it
   CHECK(scene["ms"].get<double>() > 0.0);
   CHECK(scene["floor_ms"].get<double>() > 0.0);
   CHECK(scene["lights"] == 3);
-  CHECK(scene["frames"] == 15);
+  CHECK(scene["frames"] == 100);
   REQUIRE(scene["peers"].size() == 1);
   const auto& peer = scene["peers"][0];
   CHECK(peer["name"] == "embree");
@@ -393,6 +393,35 @@ TEST_CASE("Two results of bench are compared: rows that were made slower or fast
     CHECK((said.out.find("what else the machines did may be the cause") != std::string::npos) == busy);
   }
 
+  // Five runs a side, in turn, each 5 % slower: frames of one run a side do not show that, the medians of five do.
+  std::vector<std::string> runs{"bench"};
+  for (int i = 0; i < 5; ++i)
+    for (const char* side : {"a", "b"}) {
+      runs.push_back(side + std::to_string(i) + ".json");
+      planted(runs.back().c_str(), 0.02 * i, std::vector<double>(4, *side == 'a' ? 1.0 : 1.05));
+    }
+  const Outcome one_each = run_command({"bench", runs[1], runs[2]}, folder.path(""));
+  CHECK(one_each.out.find("\n0 of 4 rows differ beyond noise: with 99 % confidence by more than 10 %\n") !=
+        std::string::npos);
+  CHECK(one_each.out.find("five runs a side, in turn, do") != std::string::npos);
+  const Outcome in_turn = run_command(runs, folder.path(""));
+  CHECK(in_turn.out.find("\n4 of 4 rows differ beyond noise: with 99 % confidence from run to run\n") !=
+        std::string::npos);
+  CHECK(in_turn.out.find("B takes 1.050 times as long") != std::string::npos);
+
+  // What differs besides times is said; scores of two standards are not compared.
+  auto elsewhere = written;
+  elsewhere["machine"]["cores"] = 77;
+  elsewhere["not_to_be_quoted"] = nlohmann::json::array();
+  elsewhere["standard"] = {{"version", 1}, {"score", 5.0}};
+  std::ofstream(folder.path("elsewhere.json")) << elsewhere;
+  elsewhere["machine"] = written["machine"];
+  elsewhere["standard"]["version"] = 2;
+  std::ofstream(folder.path("here.json")) << elsewhere;
+  const Outcome differing = run_command({"bench", "elsewhere.json", "here.json"}, folder.path(""));
+  CHECK(differing.out.find("A and B differ in cores (77 and ") != std::string::npos);
+  CHECK(differing.out.find("scores are not compared: A's is of standard 1, B's of standard 2") != std::string::npos);
+
   auto few = written, other = written;
   few["scenes"][0]["frame_ms"] = {1.0, 2.0};
   few["scenes"][0]["hash"] = "sha256:0";
@@ -414,6 +443,11 @@ TEST_CASE("Two results of bench are compared: rows that were made slower or fast
   refused({"run.json", "scene.json"}, 3, "scene.json: this is no result of bench, and run.json is one");
   refused({"run.json", "builtin:city"}, 3, "builtin:city: this is no result of bench");
   refused({"run.json"}, 2, "compared by twos");
+  refused({"run.json", "run.json", "run.json"}, 2, "compared by twos, and here are 3");
+  auto alone = written;
+  alone["scenes"][0]["scene"] = "builtin:red";
+  std::ofstream(folder.path("alone.json")) << alone;
+  refused({"run.json", "alone.json"}, 3, "no row is in both of them");
   refused({"run.json", "run.json", "--size", "3x3"}, 2, "--size");
   refused({"run.json", "run.json", "-o", "x.html"}, 2, "-o");
   refused({"scene.json"}, 3, "scene.json");
