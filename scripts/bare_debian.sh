@@ -40,9 +40,12 @@ has_debootstrap() {
     { "${get[@]}" update && "${get[@]}" --no-install-recommends install debootstrap; } >/dev/null 2>&1 </dev/null
 }
 
-# inside COMMANDS: runs them in the Debian at $root, with /proc, /sys and /dev, which end with them.
+# inside COMMANDS: runs them in the Debian at $root, with /proc, /sys and /dev, which end with them. In a Debian that is
+# itself in a folder, as ./check packages is of ./check debian, / is no mount point, and the mounts are hidden already.
 inside() {
-  DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 unshare --mount bash -c '
+  local -a propagation=()
+  unshare --mount true 2>/dev/null || propagation=(--propagation unchanged)
+  DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 unshare --mount "${propagation[@]}" bash -c '
     mount -t proc proc "$0/proc" && mount -t sysfs -o ro sysfs "$0/sys" && mount --rbind /dev "$0/dev" && exec chroot "$0" /bin/bash -euc "$1"' "$root" "$1"
 }
 
