@@ -44,9 +44,9 @@ constexpr bool is_placed(LightType type) { return row_of(type).reach != LightRea
 /// Whether light leaves a surface, which `right` and `up` of the light span.
 constexpr bool has_area(LightType type) { return row_of(type).has_area; }
 
-constexpr bool is_ambient(LightType type) { return type == LightType::ambient; }
-constexpr bool is_directional(LightType type) { return type == LightType::directional; }
-constexpr bool is_spot(LightType type) { return type == LightType::spot; }
+constexpr bool is_ambient(LightType type) { return type == LightType::ambient; }          ///< on all alike
+constexpr bool is_directional(LightType type) { return type == LightType::directional; }  ///< from far away
+constexpr bool is_spot(LightType type) { return type == LightType::spot; }                ///< in a cone
 
 /// One light in world space. A light model reads the fields it names and no others.
 struct Light {
