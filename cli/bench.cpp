@@ -233,7 +233,8 @@ void bench(const BenchOptions& options) {
   for (const BenchOptions& row : rows) check_pipeline(options_of(row));
   for (const BenchOptions& row : rows)  // files that are missing are told before the first scene is timed
     for (const std::string& scene : row.scenes)
-      if (!scene.starts_with("builtin:") && scene.find('.') != std::string::npos && !std::filesystem::exists(scene))
+      if (std::error_code unknown; !scene.starts_with("builtin:") && scene.find('.') != std::string::npos &&
+                                   !std::filesystem::exists(scene, unknown) && !unknown)
         throw Error(ErrorKind::io, scene, "No such file or directory", "name a scene");
   for (const auto& file : {options.json_file, options.report})
     if (file && *file != "-") check_writable(*file);

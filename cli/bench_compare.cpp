@@ -24,8 +24,8 @@ constexpr size_t kMostFrames = 500;   ///< of a row
 constexpr size_t kLeastTimes = 5;     ///< of a row, frames of one run or medians of several
 constexpr double kConfidence = 0.99;  ///< of each row's interval
 /// Runs of one program differ too, by where memory lies and what the machine does, which frames of one run do not show:
-/// 24 of city on an idle guest took 7.4 to 7.7 ms, or 8.3 to 8.6. Where there is one run a side, smaller differences are
-/// called none.
+/// 24 of city on an idle guest took 7.4 to 7.7 ms, or 8.3 to 8.6. Where there is one run a side, smaller differences
+/// are called none.
 constexpr double kBetweenRuns = 1.15;
 
 /// Who drew what.
@@ -152,13 +152,29 @@ std::optional<json::Value> bench_result(const std::string& file) {
   return value;
 }
 
-/// Several runs as one result: of each row that all have, the medians.
+/// "cores (1 and 2), threads (1 and 2)": in what two results differ besides their times; empty: in nothing that is
+/// known.
+std::string differing_facts(const Result& before, const Result& after) {
+  std::string text;
+  for (const MachineFact& fact : before.facts)
+    for (const MachineFact& other : after.facts)
+      if (other.name == fact.name && other.value != fact.value)
+        text += (text.empty() ? "" : ", ") + fact.name + " (" + fact.value + " and " + other.value + ")";
+  return text;
+}
+
+/// Several runs as one result: of each row that all have, the medians. Error(bad_input) where they are of several
+/// machines or programs.
 Result of_runs(const std::vector<Result>& runs) {
   Result all = runs.front();
   if (runs.size() == 1) return all;
   all.rows.clear(), all.score.reset();
   all.runs = int(runs.size());
   for (size_t i = 1; i < runs.size(); ++i) {
+    if (const std::string differing = differing_facts(runs.front(), runs[i]); !differing.empty())
+      throw Error(ErrorKind::bad_input, runs[i].file,
+                  "as a run of the same side as " + runs.front().file + " it differs in " + differing,
+                  "name runs of A and B in turn: A1.json B1.json A2.json B2.json");
     all.file += ", " + runs[i].file;
     all.reasons.insert(all.reasons.end(), runs[i].reasons.begin(), runs[i].reasons.end());
   }
@@ -171,17 +187,6 @@ Result of_runs(const std::vector<Result>& runs) {
     if (medians.ms.size() == runs.size()) all.rows.push_back(std::move(medians));
   }
   return all;
-}
-
-/// "cores (1 and 2), threads (1 and 2)": in what two results differ besides their times; empty: in nothing that is
-/// known.
-std::string differing_facts(const Result& before, const Result& after) {
-  std::string text;
-  for (const MachineFact& fact : before.facts)
-    for (const MachineFact& other : after.facts)
-      if (other.name == fact.name && other.value != fact.value)
-        text += (text.empty() ? "" : ", ") + fact.name + " (" + fact.value + " and " + other.value + ")";
-  return text;
 }
 
 struct Comparison {

@@ -20,7 +20,7 @@ std::string attribute(const char* name, std::string_view value) {
 
 constexpr std::string_view kOutcomeNames[] = {"", "failure", "error", "skipped"};
 
-std::string attributes_of(std::span<const JUnitCase> cases) {
+std::string attributes_of(std::span<const JUnitCase> cases, std::optional<double> of_all) {
   size_t count[std::size(kOutcomeNames)] = {};
   double seconds = 0.0;
   for (const JUnitCase& one : cases) ++count[size_t(one.outcome)], seconds += one.seconds;
@@ -29,7 +29,7 @@ std::string attributes_of(std::span<const JUnitCase> cases) {
   if (const size_t skipped = count[size_t(JUnitOutcome::skipped)]; skipped > 0)
     text += attribute("skipped", std::to_string(skipped));
   return text + attribute("errors", std::to_string(count[size_t(JUnitOutcome::error)])) +
-         attribute("time", seconds_text(seconds));
+         attribute("time", seconds_text(of_all.value_or(seconds)));
 }
 
 std::string testcase(const std::string& checked, const JUnitCase& one) {
@@ -67,8 +67,9 @@ std::string xml_text(std::string_view text, Lines lines) {
   return xml;
 }
 
-std::string junit_xml(const std::string& command, const std::string& checked, std::span<const JUnitCase> cases) {
-  const std::string figures = attributes_of(cases);
+std::string junit_xml(const std::string& command, const std::string& checked, std::span<const JUnitCase> cases,
+                      std::optional<double> seconds) {
+  const std::string figures = attributes_of(cases, seconds);
   std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" + attribute("name", command) + figures +
                     ">\n  <testsuite" + attribute("name", checked) + figures + ">\n";
   for (const JUnitCase& one : cases) xml += testcase(checked, one);

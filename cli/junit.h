@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,7 +24,9 @@ struct JUnitCase {
 /// The report of a command, `trueshade compare` say, in JUnit's XML. Characters that XML does not allow are shown as
 /// `?`.
 ///   checked: the folder or file whose parts the cases are
-std::string junit_xml(const std::string& command, const std::string& checked, std::span<const JUnitCase> cases);
+///   seconds: of all together; absent: the sum of the cases'
+std::string junit_xml(const std::string& command, const std::string& checked, std::span<const JUnitCase> cases,
+                      std::optional<double> seconds = {});
 
 /// A case for each picture: a failure where it does not pass, and an error where it cannot be read.
 std::vector<JUnitCase> junit_cases(const FolderComparison& folders);

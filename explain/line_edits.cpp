@@ -134,9 +134,11 @@ class LineSearch {
 
   /// Adds the edits that are as near as the first, at most `most`, each line that they make once.
   void tell(const std::vector<TriedEdit>& tried, size_t most, LineEdits& out) const {
+    constexpr size_t kMostWritten = 8;  // lines that are compiled to be told
+    size_t written = 0;
     for (size_t i = 0; i < tried.size() && tried[i].difference == tried[0].difference; ++i) {
       ++out.alike;
-      if (out.nearest.size() >= most) continue;
+      if (out.nearest.size() >= most || written++ >= kMostWritten) continue;
       LineEdit edit = told(tried[i]);
       const bool is_told = std::any_of(out.nearest.begin(), out.nearest.end(), [&](const LineEdit& other) {
         return other.drawn_as == edit.drawn_as && (!edit.drawn_as.empty() || other.what == edit.what);

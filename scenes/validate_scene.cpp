@@ -189,10 +189,13 @@ void check_area(const Light& light, const Part& part) {
                "the unit vector of cross(up, right)");
 }
 
+/// Whether lights of a type have the field's value in use: an area light all of them, as its extents are in two.
+bool is_read(const LightField& row, LightType type) { return contains(row.types, type) || has_area(type); }
+
 void check_light(const Light& light, const Part& part) {
   visit_members(light, [&](const LightField& row, auto& value) {
     const bool is_plain = row.kind == LightValueKind::number || row.kind == LightValueKind::three_numbers;
-    if (is_plain && row.least != kAboveZero) check_field(row, value, part);
+    if (is_plain && row.property != LightProperty::range && is_read(row, light.type)) check_field(row, value, part);
   });
   if (row_of(light.type).is_aimed)
     part.require(is_unit(light.direction), "the direction is not of unit length", "length 1");

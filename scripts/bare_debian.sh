@@ -44,7 +44,7 @@ has_debootstrap() {
 # itself in a folder, as ./check packages is of ./check debian, / is no mount point, and the mounts are hidden already.
 inside() {
   local -a propagation=()
-  unshare --mount true 2>/dev/null || propagation=(--propagation unchanged)
+  awk '$5 == "/" { found = 1 } END { exit !found }' /proc/self/mountinfo || propagation=(--propagation unchanged)
   DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 unshare --mount "${propagation[@]}" bash -c '
     mount -t proc proc "$0/proc" && mount -t sysfs -o ro sysfs "$0/sys" && mount --rbind /dev "$0/dev" && exec chroot "$0" /bin/bash -euc "$1"' "$root" "$1"
 }

@@ -130,7 +130,7 @@ std::string results_junit(const BatchResults& batch) {
   std::vector<JUnitCase> cases;
   for (size_t i = 0; i < batch.results.size(); ++i)
     if (batch.chosen[i]) cases.push_back(junit_case(batch.list.jobs[i], batch.results[i]));
-  return junit_xml("trueshade batch", batch.list.file, cases);
+  return junit_xml("trueshade batch", batch.list.file, cases, batch.seconds);
 }
 
 }  // namespace trueshade::batch

@@ -14,6 +14,7 @@ namespace trueshade::programs {
 namespace {
 
 constexpr size_t kMostVariants = 100;  // compiled, of one line
+constexpr size_t kMostLine = 1000;     // characters: ways to write a line grow with the square of its length
 constexpr int kDraws = 24;             // of numbers, that programs are compared by
 
 uint64_t mixed(uint64_t hash, uint64_t word) {
@@ -94,6 +95,7 @@ std::vector<float> values_drawn(const Program& program, const KnownInputs& known
 bool are_alike(const std::vector<float>& a, const std::vector<float>& b) {
   constexpr float kPart = 1e-4f, kSmall = 1e-9f;
   for (size_t i = 0; i < a.size(); ++i) {
+    if (!std::isfinite(a[i]) && a[i] == a[i] && a[i] != b[i]) return false;
     const bool is_same = a[i] == b[i] || (a[i] != a[i] && b[i] != b[i]);
     if (!is_same && !(std::fabs(a[i] - b[i]) <= kPart * std::fabs(a[i]) + kSmall)) return false;
   }
@@ -129,7 +131,7 @@ std::vector<std::string> factors_of(const Program& program, const std::string& t
 std::optional<std::string> edited_line(const Program& program, const std::string& text, const ProgramEdit& asked,
                                        const KnownInputs& known) {
   const std::string_view line = source_line(text, asked.line);
-  if (asked.is_parameter || line.empty()) return std::nullopt;
+  if (asked.is_parameter || line.empty() || line.size() > kMostLine) return std::nullopt;
   ProgramEdit edit = asked;
   const std::string number = literal_of(edit.number);
   if (edit.fitted) edit.number = std::strtod(number.c_str(), nullptr);

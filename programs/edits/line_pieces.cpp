@@ -140,8 +140,6 @@ class LineReader {
 
   /// An expression of operators that bind at least as tight as `least`.
   Found expression(int least, int depth) {
-    constexpr int kMostDepth = 100;
-    if (depth > kMostDepth) return std::nullopt;
     Found left = operand(depth);
     while (left && at_ < tokens_.size()) {
       const std::string_view mark = word(at_);
@@ -170,7 +168,10 @@ class LineReader {
     return left;
   }
 
+  static constexpr int kMostDepth = 100;  ///< of brackets and signs before an operand
+
   Found operand(int depth) {
+    if (depth > kMostDepth) return std::nullopt;
     // A type or a keyword stands before a name: `const float x`, `return x`.
     while (is_name(at_) && (is_name(at_ + 1) || is_keyword(word(at_)))) ++at_;
     if (at_ >= tokens_.size()) return std::nullopt;

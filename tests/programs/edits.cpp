@@ -128,5 +128,16 @@ TEST_CASE("Names that a line assigns are found, also several of a declaration") 
         std::vector<std::string>{"nl", "nv", "x.y", "d"});
 }
 
+TEST_CASE("A line of a million signs or brackets is read to where it is too deep") {
+  for (const char* sign : {"-", "!", "~", "(", "f(", "a[", "- +"}) {
+    std::string line;
+    while (line.size() < 1'000'000) line += sign;
+    CHECK(pieces_of(line + "x;").size() < 1'000'000);
+  }
+  std::string sum = "sum = 0.5";
+  while (sum.size() < 2000) sum += " + 0.25";
+  CHECK(lines_made_of(sum + ";").empty());  // too long to be written otherwise
+}
+
 }  // namespace
 }  // namespace trueshade::programs
