@@ -2,7 +2,7 @@
 # scripts/driver_frames.sh TEST [COUNT], which is ./check frames: COUNT (500) frames under states drawn at random, and as
 # many that are lit by random light programs, drawn by each software driver of this machine and judged by TEST, the program
 # of the judge's tests. None may be convicted: not under `unknown`, and not under the profile that a probe of the driver
-# wrote (docs/data/profiles). Prints how many of their lit pixels are the very ones of the profile. The first seed is the
+# wrote (docs/data/profiles). Prints how many of their pixels are the very ones of the profile. The first seed is the
 # day's, so that each run sees frames that none has seen.
 set -euo pipefail
 test=$(realpath "$1")

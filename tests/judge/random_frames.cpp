@@ -73,14 +73,14 @@ class FrameTrial {
   void tell() const {
     int refused = 0;
     for (const auto& [why, count] : refused_) refused += count;
-    const auto share = [this](uint64_t pixels) {
-      return 100 * double(pixels) / double(std::max<uint64_t>(1, covered_));
+    const auto share = [](uint64_t part, uint64_t of) {
+      return 100 * double(part) / double(std::max<uint64_t>(1, of));
     };
     std::printf(
-        "random frames by %s under %s, theme %d: %d, not drawn %d, alarms %d; of the lit pixels %.3f %% exact, "
-        "%.3f %% undefined\n",
+        "random frames by %s under %s, theme %d: %d, not drawn %d, alarms %d; %.3f %% of the pixels exact, %.3f %% "
+        "of the lit ones undefined\n",
         asked_.drawer.c_str(), profile_.name.c_str(), int(asked_.theme), asked_.count, refused, alarms_,
-        100 - share(others_), share(undefined_));
+        share(exact_, judged_), share(undefined_, covered_));
     for (const auto& [why, count] : refused_) std::printf("  not drawn %d: %s\n", count, why.c_str());
     std::fflush(stdout);
     CHECK(alarms_ == 0);
@@ -102,10 +102,11 @@ class FrameTrial {
   void hold(uint64_t seed, const RandomFrame& frame, const DrawnFrame& drawn, const ValidateOptions& options) {
     const Verdict v = validate_capture(frame.scene, frame.pipeline, drawn.capture, options);
     for (const StageVerdict& stage : v.stages)
-      if (stage.stage == "lighting")
-        covered_ += stage.covered, undefined_ += stage.count(PixelClass::undefined),
-            others_ +=
-            std::accumulate(stage.counts.begin(), stage.counts.end(), uint64_t(0)) - stage.count(PixelClass::exact);
+      if (stage.stage == "lighting") {
+        covered_ += stage.covered, undefined_ += stage.count(PixelClass::undefined);
+        exact_ += stage.count(PixelClass::exact);
+        judged_ += std::accumulate(stage.counts.begin(), stage.counts.end(), uint64_t(0));
+      }
     if (v.violations() == 0 && !v.convicted()) return;
     alarm(seed, frame, options.steps || options.objects ? "draw by draw" : "as a file", reason_of(v));
   }
@@ -121,7 +122,7 @@ class FrameTrial {
   Profile profile_;
   std::map<std::string, int> refused_;  ///< by what is in the way
   int alarms_ = 0;
-  uint64_t covered_ = 0, undefined_ = 0, others_ = 0;  ///< pixels of the stage of the lights
+  uint64_t covered_ = 0, undefined_ = 0, exact_ = 0, judged_ = 0;  ///< pixels of the stage of the lights
 };
 
 }  // namespace
