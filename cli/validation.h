@@ -69,6 +69,12 @@ std::string judged_window_line(const LocalWindow& window);
 /// The rounding of stores that each stage follows: `gbuffer as stated, codes to nearest, halves toward zero; ...`.
 std::string rounding_line(const oracle::Verdict& verdict);
 
+/// How small an error of light single pixels show, in a line; empty where no light was judged.
+std::string power_line(const oracle::Verdict& verdict);
+
+/// What the lights were judged by: `preset many-lights` or `light program ggx.glsl`.
+std::string lights_of(const Pipeline& pipeline);
+
 /// What the target hides, and which one would show it; empty for 32-bit floats and where there is no picture.
 std::string blind_spot_line(const Validation& validation);
 

@@ -255,7 +255,6 @@ std::vector<std::string> hidden_by_materials(const oracle::Verdict& v) {
   return lines;
 }
 
-/// How small an error of light single pixels show.
 std::string power_line(const oracle::Verdict& v) {
   for (const StageVerdict& s : v.stages)
     if (s.power >= 1)

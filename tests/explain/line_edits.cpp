@@ -63,8 +63,8 @@ TEST_CASE("A slip in a line of the light program is among the edits that make a 
           ++changed, made += !edits.nearest.empty() && edits.nearest[0].difference == 0;
           CHECK(edits.left_out == 0);
           CHECK(edits.alike >= 1);
-          named += std::any_of(edits.nearest.begin(), edits.nearest.end(), [&](const LineEdit& edit) {
-            return edit.difference == 0 && edit.drawn_as == drawn_as && edit.stored == given;
+          named += std::any_of(edits.nearest.begin(), edits.nearest.end(), [&, &line = drawn_as](const LineEdit& edit) {
+            return edit.difference == 0 && edit.drawn_as == line && edit.stored == given;
           });
         }
       INFO(name_of(strategy) << ", " << right << " as " << wrong);
